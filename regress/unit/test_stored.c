@@ -17,9 +17,10 @@
 #include <unistd.h>
 
 static char folder[] = "/tmp/selas-stored-XXXXXX";
-static char path[64], other[64];
+static char path[64], other[64], said[600];
 
-enum how { PLAIN, CHUNKED, DEFLATED, RAW_FILE, VIRTUAL };
+enum how { PLAIN, CHUNKED, DEFLATED, RAW_FILE, VIRTUAL, STRANGE };
+enum { STRANGE_FILTER = 400 }; /* of those that HDF5 leaves to tests */
 
 /* A data set of rows x columns; the first `filled` rows are all `value`. */
 static void put(hid_t file, const char *name, hsize_t rows, hsize_t columns, enum how how, hsize_t filled,
@@ -27,8 +28,9 @@ static void put(hid_t file, const char *name, hsize_t rows, hsize_t columns, enu
 {
     const hsize_t extent[2] = {rows, columns}, chunk[2] = {filled > 0 ? filled : 4, columns};
     const hid_t creation = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(2, extent, NULL);
-    if (how == CHUNKED || how == DEFLATED) H5Pset_chunk(creation, 2, chunk);
+    if (how == CHUNKED || how == DEFLATED || how == STRANGE) H5Pset_chunk(creation, 2, chunk);
     if (how == DEFLATED) H5Pset_deflate(creation, 6);
+    if (how == STRANGE) H5Pset_filter(creation, STRANGE_FILTER, H5Z_FLAG_MANDATORY, 0, NULL);
     if (how == RAW_FILE) H5Pset_external(creation, "/dev/zero", 0, H5F_UNLIMITED);
     if (how == VIRTUAL) H5Pset_virtual(creation, space, other, name, space);
     const hid_t set = H5Dcreate2(file, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
@@ -79,6 +81,7 @@ static size_t points_read(void)
     const double before = memory_used();
     const selas_status status = cloud_create(&box.scene, &cloud, &messages);
     const size_t points = cloud != NULL ? cloud->points : 0;
+    snprintf(said, sizeof said, "%s", messages.text != NULL ? messages.text : "");
     if (status != SELAS_OK) {
         assert_non_null(messages.text);
         assert_non_null(strstr(messages.text, path));
@@ -105,6 +108,28 @@ static void what_lies_in_the_file_is_read(void **state)
     assert_int_equal(points_of(20, PLAIN, 20), 20);
     assert_int_equal(points_of(20, CHUNKED, 20), 20);
     assert_int_equal(points_of(100000, DEFLATED, 100000), 100000); /* alike: compressed as far as it goes */
+}
+
+static size_t unchanged(unsigned flags, size_t settings, const unsigned setting[], size_t bytes, size_t *room,
+                        void **buffer)
+{
+    (void)flags, (void)settings, (void)setting, (void)room, (void)buffer;
+    return bytes;
+}
+
+static void filters_that_are_not_there_are_named(void **state)
+{
+    (void)state;
+    const H5Z_class2_t strange = {H5Z_CLASS_T_VERS, STRANGE_FILTER, 1, 1, "strange", NULL, NULL, unchanged};
+    const hid_t file = new_file(path);
+    assert_true(H5Zregister(&strange) >= 0);
+    put(file, "position", 20, 3, STRANGE, 20, .5);
+    put(file, "volume", 20, 1, PLAIN, 20, .1);
+    H5Fclose(file);
+    assert_int_equal(points_read(), 20);
+    assert_true(H5Zunregister(STRANGE_FILTER) >= 0);
+    assert_int_equal(points_read(), 0);
+    assert_non_null(strstr(said, "'position' is compressed by 'strange' (filter 400)"));
 }
 
 static void huge_extents_are_refused(void **state)
@@ -263,6 +288,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_user_block),
         cmocka_unit_test(what_lies_in_the_file_is_read),
+        cmocka_unit_test(filters_that_are_not_there_are_named),
         cmocka_unit_test(huge_extents_are_refused),
         cmocka_unit_test(numbers_elsewhere_are_refused),
         cmocka_unit_test(decks_elsewhere_are_refused),

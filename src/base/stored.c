@@ -58,6 +58,37 @@ hid_t stored_set(hid_t place, const char *name)
     return -1;
 }
 
+/* Visits an object of a file; 1 ends the visit, with the fault told. */
+static herr_t look_at_filters(hid_t place, const char *name, const H5O_info_t *info, void *context)
+{
+    char filter[64] = "", *fault = context;
+    unsigned flags, settings;
+    size_t count = 0;
+    if (info->type != H5O_TYPE_DATASET) return 0;
+    const hid_t set = H5Dopen2(place, name, H5P_DEFAULT), creation = set < 0 ? -1 : H5Dget_create_plist(set);
+    const int filters = creation < 0 ? 0 : H5Pget_nfilters(creation);
+    for (int i = 0; i < filters && fault[0] == '\0'; i++) {
+        const H5Z_filter_t which =
+            H5Pget_filter2(creation, (unsigned)i, &flags, &count, NULL, sizeof filter, filter, &settings);
+        if (which < 0 || H5Zfilter_avail(which) > 0) continue;
+        snprintf(
+            fault, STORED_FAULT,
+            "'%.60s' is compressed by '%.40s' (filter %d), which HDF5 here does not have; expected gzip or "
+            "none: h5repack -f GZIP=6 FILE NEW where it is",
+            name, filter, (int)which);
+    }
+    if (creation >= 0) H5Pclose(creation);
+    if (set >= 0) H5Dclose(set);
+    return fault[0] != '\0';
+}
+
+bool stored_unpacks(hid_t file, char fault[STORED_FAULT])
+{
+    fault[0] = '\0';
+    H5Ovisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, look_at_filters, fault);
+    return fault[0] == '\0';
+}
+
 bool stored_begins(const char *path, const char start[4], size_t count)
 {
     char found[4] = "";

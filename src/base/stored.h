@@ -13,6 +13,11 @@ bool stored_here(hid_t place, const char *name);
  * elsewhere, is virtual, keeps its numbers in another file, or has more of them than the file holds. */
 hid_t stored_set(hid_t place, const char *name);
 
+enum { STORED_FAULT = 300 };
+/* False, with `fault` saying what would be right, if a data set of the file is compressed by what the HDF5 library here
+ * does not have: no reader gets at its numbers. */
+bool stored_unpacks(hid_t file, char fault[STORED_FAULT]);
+
 /* True if the file begins with the first `count` of these characters. */
 bool stored_begins(const char *path, const char start[4], size_t count);
 /* True if the file begins as HDF5 files do, or has that behind a user block (of 512 bytes doubled any number of times),

@@ -116,7 +116,8 @@ static bool read_dataset(hid_t file, const char *name, size_t columns, size_t at
 }
 
 /* HDF5 prints its errors unless it is told not to. */
-static bool read_datasets(const char *path, size_t d, struct table *table, bool *opened)
+static bool read_datasets(const char *path, size_t d, struct table *table, bool *opened,
+                          char fault[STORED_FAULT])
 {
     bool right = false;
 #pragma omp critical(selas_hdf5)
@@ -127,7 +128,7 @@ static bool read_datasets(const char *path, size_t d, struct table *table, bool 
         H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
         const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
         *opened = file >= 0;
-        right = *opened && read_dataset(file, "position", d, 0, table) &&
+        right = *opened && stored_unpacks(file, fault) && read_dataset(file, "position", d, 0, table) &&
                 read_dataset(file, "volume", 1, 3, table);
         if (right && H5Lexists(file, "normal", H5P_DEFAULT) > 0)
             right = read_dataset(file, "normal", d, 4, table) && read_dataset(file, "area", 1, 7, table);
@@ -139,8 +140,10 @@ static bool read_datasets(const char *path, size_t d, struct table *table, bool 
 
 static selas_status read_hdf5(const char *path, size_t d, struct table *table, struct messages *messages)
 {
+    char fault[STORED_FAULT] = "";
     bool opened = false;
-    if (read_datasets(path, d, table, &opened)) return SELAS_OK;
+    if (read_datasets(path, d, table, &opened, fault)) return SELAS_OK;
+    if (fault[0] != '\0') return fail(messages, SELAS_FILE_ERROR, "'%s': %s", path, fault);
     if (!opened) return fail(messages, SELAS_FILE_ERROR, "cannot open '%s' as an HDF5 file", path);
     return fail(
         messages, SELAS_FILE_ERROR,

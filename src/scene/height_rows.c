@@ -182,17 +182,21 @@ static selas_status keep_grid(const char *path, int axes, const struct grid *gri
 static selas_status read_hdf5(const char *path, int axes, struct height_rows *rows, struct messages *messages)
 {
     struct grid grid = {.n = {1, 1}};
+    char fault[STORED_FAULT] = "";
     const struct quiet quiet = quiet_begin();
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    const bool good = file >= 0 && read_grid(file, axes, &grid);
+    const bool good = file >= 0 && stored_unpacks(file, fault) && read_grid(file, axes, &grid);
     if (file >= 0) H5Fclose(file);
     quiet_end(quiet);
-    const selas_status status =
-        good ? keep_grid(path, axes, &grid, rows, messages)
-             : fail(messages, SELAS_FILE_ERROR, "%s: expected the HDF5 data sets %s", path,
-                    axes == 2
-                        ? "x [nx], y [ny] and height [nx, ny], or z [ny, nx] as in grids of netCDF-4 (GMT)"
-                        : "x [nx] and height [nx], or z [nx]");
+    selas_status status = SELAS_FILE_ERROR;
+    if (good)
+        status = keep_grid(path, axes, &grid, rows, messages);
+    else if (fault[0] != '\0')
+        fail(messages, status, "%s: %s", path, fault);
+    else
+        fail(messages, status, "%s: expected the HDF5 data sets %s", path,
+             axes == 2 ? "x [nx], y [ny] and height [nx, ny], or z [ny, nx] as in grids of netCDF-4 (GMT)"
+                       : "x [nx] and height [nx], or z [nx]");
     array_free(grid.place[0]);
     array_free(grid.place[1]);
     array_free(grid.height);

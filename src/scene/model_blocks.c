@@ -158,7 +158,7 @@ static bool lay_axis(const struct blocks *blocks, hid_t set, const char *name, i
         good = model_fault(blocks->source, "'%s' has neither %s nor %zu %s", name, even, count, listed);
     for (size_t i = 0; good && i < count && axis == 2; i++)
         place[i] = -place[i];
-    /* over depth in any order in the file, values top down */
+    /* over depth in any order in the file, values top down, as GeoModelGrids' own reader has it (serial/Block.cc) */
     if (good && axis == 2) qsort(place, count, sizeof *place, rising);
     good = good && model_part(blocks->source, grid, axis, place, count, first);
     array_free(place);

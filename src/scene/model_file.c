@@ -186,6 +186,7 @@ static bool read_hdf5(struct model_source *source)
         bool (*read)(struct model_source *source, hid_t file);
     } format[] = {
         {"blocks", model_read_blocks}, {"Material_model", model_read_sfile}, {NULL, model_read_plain}};
+    char fault[STORED_FAULT];
     bool good = false;
 #pragma omp critical(selas_hdf5)
     {
@@ -194,8 +195,11 @@ static bool read_hdf5(struct model_source *source)
         size_t i = 0;
         while (file >= 0 && format[i].group != NULL && !stored_here(file, format[i].group))
             i++;
-        good = file >= 0 ? format[i].read(source, file)
-                         : model_fault(source, "cannot read this HDF5 file; is it cut short?");
+        if (file < 0)
+            good = model_fault(source, "cannot read this HDF5 file; is it cut short?");
+        else
+            good =
+                stored_unpacks(file, fault) ? format[i].read(source, file) : model_fault(source, "%s", fault);
         if (file >= 0) H5Fclose(file);
         quiet_end(quiet);
     }

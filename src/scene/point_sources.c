@@ -132,6 +132,7 @@ static bool read_sets(hid_t file, size_t values, struct point_sources *sources)
 static selas_status read_hdf5(const char *path, size_t values, struct point_sources *sources,
                               struct messages *messages)
 {
+    char fault[STORED_FAULT] = "";
     bool right = false;
 #pragma omp critical(selas_hdf5)
     {
@@ -141,12 +142,13 @@ static selas_status read_hdf5(const char *path, size_t values, struct point_sour
         H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
         const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
         if (file >= 0) {
-            right = read_sets(file, values, sources);
+            right = stored_unpacks(file, fault) && read_sets(file, values, sources);
             H5Fclose(file);
         }
         H5Eset_auto2(H5E_DEFAULT, function, data);
     }
     if (right) return SELAS_OK;
+    if (fault[0] != '\0') return fail(messages, SELAS_FILE_ERROR, "'%s': %s", path, fault);
     return fail(
         messages, SELAS_FILE_ERROR,
         "'%s': expected data sets position [n, 3], %s and, if any, amplitude [n], start [n] >= 0, in the "
