@@ -58,7 +58,8 @@ typedef struct selas_simulation selas_simulation;
 
 /* Opens a simulation from a deck file (doc/reference/deck.md). Reads and checks the deck and builds the scene; points
  * and operator are made by the first call that needs them. A failed open still sets *simulation to a handle
- * that holds only the message (NULL if there was no memory even for that): close it as any other. Errors:
+ * that holds only the message (NULL if there was no memory even for that): close it as any other; calls that would
+ * use it return the status of the open. Errors:
  * SELAS_BAD_DECK, SELAS_BAD_SCENE, SELAS_FILE_ERROR, SELAS_BAD_ARGUMENT (a NULL pointer), SELAS_NO_MEMORY. */
 SELAS_API selas_status selas_open_deck(const char *path, selas_simulation **simulation);
 

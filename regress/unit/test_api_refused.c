@@ -10,7 +10,7 @@ static void test_refused_calls_change_nothing(void **state)
     (void)state;
     selas_simulation *s = open_scene();
     const char *const east[1] = {"east"}, *const sideways[1] = {"sideways"}, *const face[1] = {"z-"};
-    const double place[3] = {3, 2, 0}, bad = -1, good = 1, *points;
+    const double place[4] = {3, 2, 0}, bad = -1, good = 1, *points;
     double value[6];
     size_t number, count;
     assert_int_equal(selas_add(s, "receiver", &number), SELAS_OK);
@@ -53,7 +53,14 @@ static void test_one_failure_is_told_once(void **state)
     (void)state;
     selas_simulation *s = NULL;
     double value[6];
-    wrong_open(&s, selas_open_text("wrong", "&scene dimension = 5 /", &s));
+    selas_status opened = selas_open_deck("/nowhere.nml", &s);
+    wrong_open(&s, opened);
+    assert_int_equal(selas_step(s, 1), opened);
+    selas_close(&s);
+    wrong_open(&s, opened = selas_open_text("wrong", "&scene dimension = 5 /", &s));
+    assert_int_equal(opened, SELAS_BAD_DECK);
+    assert_int_equal(selas_step(s, 1), opened);
+    assert_int_equal(selas_build(s), opened);
     size_t told = lines_of(selas_message(s));
     for (int i = 0; i < 3; i++) {
         wrong(s, selas_step(s, 1));

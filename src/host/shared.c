@@ -18,7 +18,8 @@ selas_status selas_share_handle(selas_simulation *simulation, int communicator)
         return fail(messages, SELAS_BAD_ARGUMENT, "a simulation is shared once, right after it is opened");
     selas_status status = ranks_join(communicator, &simulation->joined, messages);
     if (status != SELAS_OK) return status;
-    status = simulation->deck == NULL || simulation->broken ? SELAS_BAD_DECK : SELAS_OK;
+    status =
+        simulation->broken == SELAS_OK && simulation->deck == NULL ? SELAS_BAD_ARGUMENT : simulation->broken;
     simulation_share(simulation, simulation->joined);
     status = ranks_agree(simulation->ranks, status, messages);
     simulation_failed(simulation, status);

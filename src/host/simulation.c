@@ -76,6 +76,13 @@ static selas_status build_scene(selas_simulation *simulation)
     return status;
 }
 
+/* What is read becomes a scene; what cannot be read keeps all later calls from being done. */
+static selas_status scene_of_deck(selas_simulation *simulation, selas_status read)
+{
+    simulation->broken = read;
+    return read == SELAS_OK ? simulation_scene(simulation) : read;
+}
+
 selas_status selas_open_deck_with(const char *path, size_t count, const char *const *overrides,
                                   selas_simulation **opened)
 {
@@ -87,7 +94,7 @@ selas_status selas_open_deck_with(const char *path, size_t count, const char *co
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the deck's path or the overrides are NULL");
     const selas_status read =
         deck_read_file(path, count, overrides, &simulation->deck, &simulation->messages);
-    return read == SELAS_OK ? simulation_scene(simulation) : read;
+    return scene_of_deck(simulation, read);
 }
 
 selas_status selas_open_deck(const char *path, selas_simulation **simulation)
@@ -105,7 +112,7 @@ selas_status selas_open_text(const char *name, const char *text, selas_simulatio
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the deck's name or text is NULL");
     const selas_status read =
         deck_read_text(name, text, strlen(text), 0, NULL, &simulation->deck, &simulation->messages);
-    return read == SELAS_OK ? simulation_scene(simulation) : read;
+    return scene_of_deck(simulation, read);
 }
 
 selas_status selas_open_new(const char *name, selas_simulation **opened)
@@ -132,7 +139,8 @@ void simulation_discard(selas_simulation *simulation)
     array_free(simulation->lattice);
     simulation->scratch = simulation->values = simulation->lattice = NULL;
     simulation->values_room = 0;
-    simulation->prepared = simulation->dirty = simulation->broken = false;
+    simulation->prepared = simulation->dirty = false;
+    simulation->broken = SELAS_OK;
 }
 
 void selas_close(selas_simulation **closed)
@@ -190,7 +198,8 @@ static selas_status simulation_check(selas_simulation *simulation)
                     "a function of the host may not call its own simulation");
     if (simulation->deck != NULL) return SELAS_OK;
     if (simulation->failure[1] == 0) simulation->failure[1] = simulation->messages.length;
-    return simulation_consequence(simulation, SELAS_BAD_ARGUMENT);
+    return simulation_consequence(simulation,
+                                  simulation->broken != SELAS_OK ? simulation->broken : SELAS_BAD_ARGUMENT);
 }
 
 selas_status simulation_may_change(selas_simulation *simulation)
@@ -207,10 +216,10 @@ selas_status simulation_scene(selas_simulation *simulation)
 {
     selas_status status = simulation_check(simulation);
     if (status != SELAS_OK || simulation->scene != NULL) return status;
-    if (simulation->broken) return simulation_consequence(simulation, SELAS_BAD_SCENE);
+    if (simulation->broken != SELAS_OK) return simulation_consequence(simulation, simulation->broken);
     status = deck_complete(simulation->deck, &simulation->messages);
     if (status == SELAS_OK) status = build_scene(simulation);
-    simulation->broken = status != SELAS_OK;
+    simulation->broken = status;
     if (status != SELAS_OK) keep_failure(simulation);
     return status;
 }

@@ -51,9 +51,9 @@ struct selas_simulation {
     bool prepared, recording, finished;
     bool advised;        /* the host, or the user by the program, has been told the advice on the scene */
     bool warned;         /* that it looks where the deck does not */
-    bool broken;         /* the scene could not be built from what was set so far */
     bool busy;           /* a callback of the host is running */
     bool dirty;          /* loads at the time reached have changed; the acceleration has not yet */
+    selas_status broken; /* why no scene could be opened or built from what was set so far */
     selas_status failed; /* why no step can follow */
     size_t call;         /* where in the messages the last call began */
     size_t failure[2];   /* first and last byte of the failure that keeps later calls from being done */
