@@ -93,7 +93,7 @@ struct recorder {
     struct snapshot_record *snapshot; /* [scene->snapshots] */
     size_t entries, entry_room;
     struct snapshot_entry *entry;
-    double shown[SELAS_ENERGY + 1]; /* the largest numbers of snapshots, field by field (of this rank) */
+    double shown[SELAS_ENERGY + 1]; /* the largest numbers of snapshots, field by field */
     struct run_file *file;
     struct watch watch;
     struct watch before; /* as it was before the last step was seen */

@@ -146,6 +146,7 @@ static void write_fields(struct recorder *recorder, const struct snapshot_record
             walk_table(walk, name, H5T_IEEE_F32LE, record->points, (size_t)field_components(field));
         if (all) state_settle(recorder->stepper, state, field == SELAS_ACCELERATION);
         if (set >= 0) pass_field(recorder, record, field, state, walk, set);
+        if (all) ranks_largest(walk->ranks, 1, &recorder->shown[field]);
         walk_close(walk, set);
     }
 }
