@@ -57,7 +57,9 @@ check 'accepting shows the difference' sh -c "echo n | regress/nightly/accept -b
 check 'accepting with --yes' sh -c "regress/nightly/accept --yes -b \"\$build\" pulse-fixed | grep -q 'pulse-fixed: accepted'"
 rm -rf regress/cases/aa-broken
 check 'green again' night
-check 'what passes again is told' sh -c "head -n 1 $summary | grep -q 'pulse-fixed: passes again$'"
+check 'what passes again and what is gone are told' sh -c "head -n 1 $summary | grep -q 'pulse-fixed: passes again, aa-broken: gone$'"
+night
+check 'what is gone is told once' sh -c "head -n 1 $summary | grep -q 'since last night: nothing new$'"
 check 'a changed figure of a record is red' sh -c "
     cp regress/cases/pulse-fixed/record kept
     awk '/^far.exact.dat: v/ { \$5 *= 1.0001 } { print }' kept >regress/cases/pulse-fixed/record
