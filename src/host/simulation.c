@@ -76,13 +76,6 @@ static selas_status build_scene(selas_simulation *simulation)
     return status;
 }
 
-/* What is read becomes a scene; what cannot be read keeps all later calls from being done. */
-static selas_status scene_of_deck(selas_simulation *simulation, selas_status read)
-{
-    simulation->broken = read;
-    return read == SELAS_OK ? simulation_scene(simulation) : read;
-}
-
 selas_status selas_open_deck_with(const char *path, size_t count, const char *const *overrides,
                                   selas_simulation **opened)
 {
@@ -92,9 +85,8 @@ selas_status selas_open_deck_with(const char *path, size_t count, const char *co
     selas_simulation *simulation = *opened;
     if (path == NULL || (count > 0 && overrides == NULL))
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the deck's path or the overrides are NULL");
-    const selas_status read =
-        deck_read_file(path, count, overrides, &simulation->deck, &simulation->messages);
-    return scene_of_deck(simulation, read);
+    simulation->broken = deck_read_file(path, count, overrides, &simulation->deck, &simulation->messages);
+    return simulation_scene(simulation);
 }
 
 selas_status selas_open_deck(const char *path, selas_simulation **simulation)
@@ -110,9 +102,9 @@ selas_status selas_open_text(const char *name, const char *text, selas_simulatio
     selas_simulation *simulation = *opened;
     if (name == NULL || text == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the deck's name or text is NULL");
-    const selas_status read =
+    simulation->broken =
         deck_read_text(name, text, strlen(text), 0, NULL, &simulation->deck, &simulation->messages);
-    return scene_of_deck(simulation, read);
+    return simulation_scene(simulation);
 }
 
 selas_status selas_open_new(const char *name, selas_simulation **opened)
