@@ -313,6 +313,18 @@ told "layers too thin for the spacing" "layers of 8 points are only 0.0[0-9]* P 
 untold "layers as thick as advised" "boundary(2)%layer_points=$(sed -n 's/^warning.*layer_points = \([0-9]*\) would.*/\1/p' said)"
 untold "eight points are enough for a coarser spacing" body%spacing=0.125
 untold "a kinked pulse, of which the spacing leaves more" load%smoothing=0
+cat >reach.nml <<'END'
+&scene dimension = 3, end_time = 4 /
+&material name = 'rock', density = 2.7, p_speed = 5, s_speed = 3 /
+&body material = 'rock', shape = 'half-space', spacing = 0.5 /
+&load kind = 'body-force', shape = 'point', centre = 0, 0, 6, direction = 0, 0, 1, history = 'gaussian', width = .5, delay = 2.5 /
+&receiver name = 'r', position = 5, 0, 0 /
+&output plots = .false. /
+END
+deck=reach.nml
+untold "a receiver that waves reach"
+untold "one that they reach a little later" receiver%position=15,0,0
+told "one in metres beside speeds in km/s" "receiver 'r' by end_time: the fastest, 5, comes there at t = 99.81 at" receiver%position=500,0,0
 cat >graded.nml <<'END'
 &scene dimension = 3, end_time = 3.0 /
 &method operator = 'general' /

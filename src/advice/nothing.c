@@ -73,6 +73,51 @@ static void look_at_rest(struct adviser *adviser)
         advise(adviser, "nothing acts: no load, no face that moves, no state at t = 0; all results are 0");
 }
 
+/* When the fastest wave of the loads comes to a place, at the earliest; 0 where one acts all over the body or moves. */
+static double earliest(const struct scene *scene, const double place[3])
+{
+    static const double spread = 2; /* spacings over which a lattice spreads a point */
+    double time = INFINITY;
+    for (size_t k = 0; k < scene->loads; k++) {
+        const struct load *load = &scene->load[k];
+        if (load->shape == LOAD_FACE || load_moves(load)) return 0;
+        const double size = has_patch(load) ? hypot(load->size[0], load->size[1]) / 2 : 0;
+        const double way =
+            hypot(hypot(place[0] - load->centre[0], place[1] - load->centre[1]), place[2] - load->centre[2]) -
+            size - spread * scene->body.spacing;
+        time = fmin(time, load->history.start + fmax(way, 0) / scene_fastest(scene));
+    }
+    return time;
+}
+
+/* Receivers that no wave reaches by far: lengths, times and speeds of several systems of units, most often. Damped
+ * rock carries its shortest waves faster than its p_speed, by 1 + ln(50) / (5 pi) = 1.25 at Q = 5 and 50 times
+ * q_frequency. */
+static void look_at_reach(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    static const double far = 2;
+    double latest = 0;
+    size_t missed = 0, last = 0;
+    if (scene->loads == 0 || scene_driven(scene) || scene->initial.kind != INITIAL_REST) return;
+    for (int face = 0; face < FACES; face++)
+        if (boundary_acts(&scene->boundary[face])) return;
+    for (size_t r = 0; r < scene->receivers; r++) {
+        const double time = earliest(scene, scene->receiver[r].position);
+        missed += time > far * scene->end_time;
+        if (time > latest) last = r;
+        latest = fmax(latest, time);
+    }
+    if (missed == 0) return;
+    char others[48] = "";
+    if (missed > 1) snprintf(others, sizeof others, " and %zu other receivers", missed - 1);
+    advise(adviser,
+           "no wave comes as far as receiver '%s'%s by end_time: the fastest, %.4g, comes there at t = %.4g "
+           "at the earliest; a later end_time would be right, or lengths, times and speeds of one system of "
+           "units",
+           scene->receiver[last].name, others, scene_fastest(scene), latest);
+}
+
 static void look_at_blocks(struct adviser *adviser)
 {
     const struct body *body = &adviser->scene->body;
@@ -151,6 +196,7 @@ void look_at_nothing(struct adviser *adviser)
 {
     look_at_rows(adviser);
     look_at_rest(adviser);
+    look_at_reach(adviser);
     look_at_blocks(adviser);
     look_at_layers_there(adviser);
     look_at_hill(adviser);
