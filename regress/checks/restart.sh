@@ -112,6 +112,9 @@ cp cut_paper/unfinished/points.h5 $bad
 refused "another HDF5 file" "no checkpoint of selas"
 : >$bad
 refused "empty" "no checkpoint of selas"
+rm $bad && mkdir $bad
+refused "a folder" "it is a folder; .* unfinished/checkpoint.h5"
+rmdir $bad
 for part in 100 600 $((size / 2)) $((size - 1)); do
     head -c "$part" $good >$bad
     refused "cut to $part bytes of $size" "cut short"

@@ -108,7 +108,7 @@ static void reports_all_errors_at_their_places(void **state)
         "folder/case.nml:1:19: error: expected a real number, found ''a''\n"
         "folder/case.nml:1:36: error: expected an integer, found '2.5'\n"
         "folder/case.nml:2:2: error: unknown name 'tilte' in &scene; did you mean 'title'?\n"
-        "folder/case.nml:3:34: error: too many values for 'low': '0'\n"
+        "folder/case.nml:3:34: error: too many values for 'low': '0'; expected at most 3\n"
         "folder/case.nml:3:49: error: 'spacing' is given twice in one group (first on line 3)\n"
         "folder/case.nml:5:1: error: unknown group '&bdoy'; did you mean '&body'?\n"
         "folder/case.nml:4:33: error: -1 for 'density' in &material; expected a number in (0, inf)\n"

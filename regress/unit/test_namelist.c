@@ -110,7 +110,7 @@ static void reading_goes_on_after_errors(void **state)
            "f:1:47: error: expected a logical (.true. or .false.), found 'maybe'\n"
            "f:2:2: error: unknown name 'y' in &one\n"
            "f:2:20: error: 'x' is given twice in one group (first on line 1)\n"
-           "f:3:12: error: too many values for 'x': '2'\n"
+           "f:3:12: error: too many values for 'x': '2'; expected 1 (decimals have a point, 0.5)\n"
            "f:4:6: error: unknown name 'z' in &two\n"
            "f:4:1: error: &two is not closed: expected '/' before line 5\n"
            "f:5:13: error: expected a text in quotes, found 'abc'\n"

@@ -229,6 +229,10 @@ static void loads(void **unused)
         {LOAD("face='hole', shape='face', direction=0,0,1, history='step'"),
          "t.nml:4:7: error:",
          {"no traction can act on a face 'hole'"}},
+        {"&scene dimension=3, end_time=6 /\n" ROCK "&body material='rock', shape='half-space', spacing=.5 /\n"
+         "&load face='z+', shape='square', centre=0,0,4, size=1,1" PUSH ", amplitude=1 /\n",
+         "t.nml:4:7: error:",
+         {"a half-space has one face, 'z-'"}},
         {LOAD("face='z-', direction=0,0,1, history='step'"), "t.nml:4:1: error:", {"needs shape"}},
         {LOAD(PATCH "size=1,1" PUSH), "t.nml:4:1: error:", {"needs centre (3 values)"}},
         {LOAD(PATCH "centre=1,1,0" PUSH), "t.nml:4:1: error:", {"0 values of size; expected 2"}},

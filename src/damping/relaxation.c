@@ -279,10 +279,11 @@ static bool keep_passive(const struct modulus *wanted, double held, const struct
 
 static selas_status too_low(size_t mechanisms, const struct modulus *wanted, struct messages *messages)
 {
-    return fail(
-        messages, SELAS_BAD_SCENE,
-        "damping: %zu relaxation mechanisms cannot stand for so low a Q over these frequencies (%.3g)",
-        mechanisms, 1 / modulus_loss(wanted, wanted->angular_frequency));
+    return fail(messages, SELAS_BAD_SCENE,
+                "damping: %zu relaxation mechanisms cannot stand for so low a Q over these frequencies "
+                "(%.3g); expected "
+                "more method%%mechanisms, up to 8, or a higher Q",
+                mechanisms, 1 / modulus_loss(wanted, wanted->angular_frequency));
 }
 
 selas_status relaxation_weights(const struct relaxation_band *band, size_t mechanisms,

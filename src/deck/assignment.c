@@ -114,7 +114,7 @@ bool scan_values(struct scanner *scanner, const struct target *target)
     }
     if (word->type >= WORD_TEXT) array_free(value.as.text);
     if (scanned == SCANNED_WRONG) return false;
-    if (scanned != SCANNED_NAME && !scanner->complete) scanner->full = word->name;
+    if (scanned != SCANNED_NAME && !scanner->complete) scanner->full = word;
     if (scanner->repeat > 1) {
         scan_error(scanner, target->at, "too many values for '%s': at most %zu", word->name, word->count);
         return false;
@@ -193,7 +193,11 @@ bool scan_assignment(struct scanner *scanner, struct deck_group *group)
             end++;
         scan_quote(scanner, at, end - at, quoted);
         if (scanner->full != NULL)
-            scan_error(scanner, at, "too many values for '%s': '%s'%s", scanner->full, quoted,
+            scan_error(scanner, at, "too many values for '%s': '%s'; expected %s%zu%s%s", scanner->full->name,
+                       quoted, scanner->full->count > 1 ? "at most " : "", scanner->full->count,
+                       scanner->full->type == WORD_REAL && scanner->full->count == 1
+                           ? " (decimals have a point, 0.5)"
+                           : "",
                        scanner->comment_null ? COMMENT_NULL : "");
         else
             scan_error(scanner, at, "expected 'name =' or '/' in &%s, found '%s'", group->kind->name, quoted);

@@ -13,12 +13,12 @@ struct scanner {
     const char *name; /* of the file, for messages; NULL: an override */
     const char *text;
     size_t length, at;
-    bool at_line_end;  /* the last character read ended a line */
-    bool comma;        /* the last separator held a comma */
-    bool complete;     /* the group's '/' has been read */
-    long repeat;       /* how often the value just read is to be used, counted down */
-    const char *full;  /* the name whose values have just been read to the last one; NULL: none */
-    bool comment_null; /* a comment stood where a value of this name should */
+    bool at_line_end;        /* the last character read ended a line */
+    bool comma;              /* the last separator held a comma */
+    bool complete;           /* the group's '/' has been read */
+    long repeat;             /* how often the value just read is to be used, counted down */
+    const struct word *full; /* whose values have just been read to the last one; NULL: none */
+    bool comment_null;       /* a comment stood where a value of this name should */
     size_t known_at, known_line, known_start; /* where the last place asked for was */
     size_t errors;
     struct messages *messages;

@@ -145,6 +145,12 @@ static bool head_fits(int file, char head[CHECKPOINT_HEAD + 1], char *why, size_
     struct stat about;
     const ssize_t length = pread(file, head, CHECKPOINT_HEAD, 0);
     snprintf(format, sizeof format, "%d\n", FORMAT);
+    if (length < 0 && errno == EISDIR) {
+        snprintf(
+            why, size,
+            "it is a folder; that of a run that has not ended holds the checkpoint unfinished/checkpoint.h5");
+        return false;
+    }
     if (length <= 0 || strncmp(head, first_line, sizeof first_line - 1) != 0) {
         snprintf(why, size, "it is no checkpoint of selas");
         return false;

@@ -145,8 +145,17 @@ static void read_traction(struct builder *builder, const struct deck_group *grou
     load->face = (enum face)deck_choice(group, "face", 0);
     const bool hole = load->face == FACE_HOLE && builder->scene->body.shape == BODY_PLATE_WITH_HOLE;
     if (!hole && (load->face == FACE_HOLE || face_axis(load->face) >= dimension)) {
-        complain(builder, group, "face", "no traction can act on a face '%s' of this body",
-                 face_name(load->face));
+        complain(builder, group, "face", "no traction can act on a face '%s' of this body%s",
+                 face_name(load->face),
+                 dimension == 2   ? "; expected one of 'x-', 'x+', 'y-', 'y+'"
+                 : dimension == 1 ? "; expected 'x-' or 'x+'"
+                                  : "");
+        return;
+    }
+    if (builder->scene->body.chosen && load->face != (enum face)(2 * (dimension - 1))) {
+        complain(builder, group, "face",
+                 "a half-space has one face, '%s'; at '%s' the box of points ends, which is chosen",
+                 face_name((enum face)(2 * (dimension - 1))), face_name(load->face));
         return;
     }
     if (deck_values(group, "shape") == 0 && dimension > 1) {
