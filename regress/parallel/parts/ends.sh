@@ -4,6 +4,9 @@ one_line "the variant cloud" "on one rank" 3 input/halfspace-cloud.nml
 one_line "a wrong word" "number" 3 regress/parallel/tall.nml body%spacing=wide
 quiet 7 regress/cases/half-space-pml/deck.nml scene%end_time=.1 output%directory="$work/few" && grep -q '^warning: of 7 ranks 1 can work' "$work/log"
 verdict $? "a body of few planes takes fewer ranks and says so"
+quiet 2 regress/parallel/tall.nml scene%end_time=1.2 "load(1)%amplitude=0" "load(2)%amplitude=1e41" "snapshot(1)%times=1.2" output%directory="$work/vast" &&
+    grep -q "^warning: numbers of the snapshots' field 'velocity' lie beyond" "$work/vast/report.txt"
+verdict $? "numbers beyond single precision on the last rank alone are told"
 quiet 3 regress/parallel/tall.nml scene%end_time=60 stepping%time_step=.3 stepping%force=T output%directory="$work/wild"
 [ $? = 1 ] && [ "$(grep -c '^error: the run went unstable at .* (rank [0-2]), .*' "$work/log")" = 1 ]
 verdict $? "an unstable run ends all ranks, with place and time"
