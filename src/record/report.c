@@ -178,24 +178,47 @@ static void write_beyond(FILE *out, const struct recorder *recorder, struct mess
         tell_beyond(out, "numbers of the run", "precision = 'double' or other units", messages);
 }
 
-/* What rounding of the state adds (doc/developers/performance.md, F3); each operator of damped ground adds as much. */
+/* Of the displacement (from = 0) or velocity (3) of a receiver: its largest component, and the mean of its square over
+ * the largest: by how much of all steps rounding, which is a part of what is rounded, adds. */
+struct shown {
+    double largest, share;
+};
+static struct shown shown_of(const struct recorder *recorder, size_t r, size_t from)
+{
+    struct shown shown = {0};
+    double sum = 0.0, most = 0.0;
+    for (size_t i = 0; i < recorder->rows; i++) {
+        const double *value = recorder->trace[r].value + 6 * i + from;
+        const double square = value[0] * value[0] + value[1] * value[1] + value[2] * value[2];
+        for (size_t c = 0; c < 3; c++)
+            shown.largest = fmax(shown.largest, fabs(value[c]));
+        sum += square;
+        most = fmax(most, square);
+    }
+    if (most > 0.0) shown.share = sum / (most * (double)recorder->rows);
+    return shown;
+}
+
+/* What rounding of the state adds (doc/developers/performance.md, F3); each operator of damped ground adds as much.
+ * Moment tensors move the ground beside them far more than receivers: twice as much. */
 static void write_precision(FILE *out, const struct recorder *recorder, struct messages *messages)
 {
     const double steps = (double)recorder->last_step;
     const unsigned parts = recorder->model->parts;
-    double worst = 0.0, largest = 0.0;
+    double worst = 0.0, largest = 0.0, nearby = 1.0;
+    for (size_t k = 0; k < recorder->scene->loads; k++)
+        if (recorder->scene->load[k].kind == LOAD_MOMENT_TENSOR) nearby = 2.0;
     for (size_t r = 0; r < recorder->scene->receivers; r++) {
-        double size[2] = {0.0, 0.0};
-        for (size_t i = 0; i < 6 * recorder->rows; i++)
-            size[i % 6 / 3] = fmax(size[i % 6 / 3], fabs(recorder->trace[r].value[i]));
-        largest = fmax(largest, size[0]);
-        if (size[0] == 0.0 || size[1] == 0.0) continue;
-        const double turned = recorder->stepper->dt * size[1] / size[0];
-        worst = fmax(worst, 0x1p-24 * ((3.0 + 1.5 / turned) * sqrt(steps) + 2.0 * steps * turned));
+        const struct shown u = shown_of(recorder, r, 0), v = shown_of(recorder, r, 3);
+        largest = fmax(largest, u.largest);
+        if (!(u.share > 0.0) || !(v.share > 0.0)) continue;
+        const double turned = recorder->stepper->dt * v.largest / u.largest;
+        worst = fmax(worst, 0x1p-24 * ((4.5 + 2.25 / turned) * sqrt(steps * u.share) +
+                                       3.0 * steps * turned * sqrt(v.share)));
     }
     if (recorder->model->single && worst > 0.0)
         fprintf(out, "single precision adds: about %.1e of the largest value at a receiver (estimated)\n",
-                worst * (parts > 1 ? parts : 1));
+                nearby * worst * (parts > 1 ? parts : 1));
     if (recorder->model->single) write_noise(out, recorder, noise_of_stress(recorder, largest), messages);
 }
 
