@@ -200,7 +200,7 @@ static struct shown shown_of(const struct recorder *recorder, size_t r, size_t f
 }
 
 /* What rounding of the state adds (doc/developers/performance.md, F3); each operator of damped ground adds as much.
- * Moment tensors move the ground beside them far more than receivers: twice as much. */
+ * Of moment tensors, that move the ground beside them far more than receivers, twice as much is told. */
 static void write_precision(FILE *out, const struct recorder *recorder, struct messages *messages)
 {
     const double steps = (double)recorder->last_step;
