@@ -113,6 +113,16 @@ sed -E 's/(centre|size|direction|position) = ([^ ,]*), ([^ ,]*)/\1 = \3, \2/g' w
 run wall wall.nml && run flat flat.nml
 for r in a b; do awk '!/^#/ { v = $5; $5 = $6; $6 = v } { print }' flat/$r.dat >flat/turned && mv flat/turned flat/$r.dat; done
 differ "thin walls as the same walls lying flat" 0 1e-9 wall flat
+# Walls in the middle of points, about which the rock rises to neither side, too.
+for middle in 1.5 1.55; do
+    for way in wall flat; do
+        place="$middle,2" size=.14,9
+        [ $way = flat ] && place="2,$middle" size=9,.14
+        run $way $way.nml 'material(2)%density=1' 'material(2)%s_speed=2.5' 'material(2)%p_speed=5' 'block(2)%material=rock' "block(1)%centre=$place" "block(1)%size=$size"
+    done
+    for r in a b; do awk '!/^#/ { v = $5; $5 = $6; $6 = v } { print }' flat/$r.dat >flat/turned && mv flat/turned flat/$r.dat; done
+    differ "a stiff wall about $middle as the same wall lying flat" 0 1e-9 wall flat
+done
 for shape in box ellipsoid; do
     for place in 1.53 1.536; do run $place wall.nml 'block(2)%material=rock' "block(1)%shape=$shape" 'block(1)%size=.006,3' "block(1)%centre=$place,2"; done
     differ "a thin $shape is there wherever it stands" 0 .01 1.53 1.536

@@ -109,8 +109,10 @@ static void weigh_about(struct columns *columns, enum at at, size_t i)
     const double a_cell = (double)columns->a_cell, start = columns->middle[first] - columns->width[first] / 2;
     for (size_t n = 0; n < count; n++) {
         const double away = (columns->middle[first + n] - start) / a_cell - reach_of_kernel;
-        columns->weight[at][i * columns->most + n] =
-            piece_kernel(at, away) * columns->width[first + n] / a_cell;
+        const double width = columns->width[first + n] / a_cell;
+        struct column_weight *weight = &columns->weight[at][i * columns->most + n];
+        weight->average = piece_kernel(at, away) * width;
+        piece_smooth(away - width / 2, away + width / 2, weight->smooth);
     }
 }
 
@@ -126,7 +128,7 @@ static bool weigh(struct columns *columns)
         for (size_t i = 0; i < columns->points - (at == AT_MIDDLES); i++)
             weigh_about(columns, (enum at)at, i);
     }
-    columns->bytes += 2 * columns->points * columns->most * sizeof(double);
+    columns->bytes += 2 * columns->points * columns->most * sizeof *columns->weight[0];
     return true;
 }
 
@@ -211,14 +213,14 @@ void columns_average(const struct columns *columns, enum at at, size_t i, const 
     const double cell = (double)columns->a_cell, reach = cell * PIECES / 2,
                  middle = columns->middle[first] - columns->width[first] / 2 + reach / 2;
     const struct piece *from = column + columns->image[first] * stride;
-    *sum = (struct piece){.level = 0};
+    *sum = (struct piece){.even = false};
     memcpy(sum->least, from->least, sizeof sum->least);
     for (size_t n = first; n < first + count; n++) {
         const struct piece *there = column + n * stride;
-        const double even = columns->width[n] / reach, within = fabs(columns->middle[n] - middle) < cell / 2;
-        piece_add(column + columns->image[n] * stride, columns->weight[at][i * columns->most + n - first],
-                  within * columns->width[n] / cell, sum);
-        piece_rise(there, even, sum);
-        sum->rise[columns->slot] += (columns->middle[n] < middle ? -2 : 2) * even * there->level;
+        const struct column_weight *weight = &columns->weight[at][i * columns->most + n - first];
+        const double within = fabs(columns->middle[n] - middle) < cell / 2;
+        piece_add(column + columns->image[n] * stride, weight->average, within * columns->width[n] / cell,
+                  sum);
+        piece_slopes(there->slope, columns->slot, weight->smooth, sum->slope);
     }
 }

@@ -15,8 +15,10 @@ struct columns {
     /* Of each column: middle and width in even ones, and the column of the lattice that it is the mirror image of. */
     double *middle, *width;
     size_t *image;
-    size_t *first;              /* column of each half cell */
-    double *weight[2];          /* [at][point * most + n] of the columns about a point */
+    size_t *first; /* column of each half cell */
+    struct column_weight {
+        double average, smooth[3];
+    } * weight[2];              /* [at][point * most + n] of the columns about a point: (G11b), (G10a) */
     size_t most, halves, bytes; /* columns about a point, at most; half cells; memory */
 };
 

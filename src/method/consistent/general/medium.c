@@ -8,6 +8,7 @@
 #include "scene/grading.h"
 #include "scene/topography.h"
 
+#include <gsl/gsl_eigen.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <omp.h>
@@ -26,6 +27,9 @@ struct medium {
     bool part;      /* of damped ground */
     double *jump;   /* [threads * room] */
     size_t room, bytes;
+    gsl_eigen_symmv_workspace *eigen;
+    gsl_vector *values;
+    gsl_matrix *vectors;
 };
 
 /* Vertical coordinate of a place of the lattice in a column below a surface so far below the plane, and the other
@@ -123,17 +127,17 @@ static void average_column(const struct medium *medium, const size_t at[2], doub
     for (size_t j = 0, n = 0; j < y->lines; j++)
         for (size_t i = 0; i < x->lines; i++, n++) {
             double there[3] = {place[0] + columns_line(x, at[0], i), place[1] + columns_line(y, at[1], j), 0};
-            struct piece one = {.level = 0};
+            struct piece one = {.even = false};
             struct piece *found = lines > 1 ? &one : sum;
             average_piece(medium, there, drop, within, jump, found);
             if (within != number) piece_turn(found);
             if (lines == 1) return;
             if (n == 0) {
-                *sum = (struct piece){.level = 0};
+                *sum = (struct piece){.even = false};
                 memcpy(sum->least, one.least, sizeof sum->least);
             }
             piece_add(&one, share, share, sum);
-            piece_rise(&one, share, sum);
+            sum->slope[SLOPE_NONE] += share * one.slope[SLOPE_NONE];
         }
 }
 
@@ -173,6 +177,10 @@ struct medium *medium_new(const struct consistent *c)
     medium->jump = held(medium, (size_t)c->threads * medium->room, sizeof *medium->jump);
     good = good && medium->column != NULL && medium->row[0] != NULL && medium->row[1] != NULL &&
            medium->point != NULL && medium->jump != NULL;
+    medium->eigen = gsl_eigen_symmv_alloc(3);
+    medium->values = gsl_vector_alloc(3);
+    medium->vectors = gsl_matrix_alloc(3, 3);
+    good = good && medium->eigen != NULL && medium->values != NULL && medium->vectors != NULL;
     for (int f = 0; f < 3 && good; f++) {
         medium->ring[f] = held(medium, RING * along[0].points * along[1].points, sizeof **medium->ring);
         good = medium->ring[f] != NULL;
@@ -195,6 +203,9 @@ void medium_free(struct medium *medium)
         array_free(medium->ring[f]);
     array_free(medium->point);
     array_free(medium->jump);
+    if (medium->eigen != NULL) gsl_eigen_symmv_free(medium->eigen);
+    gsl_vector_free(medium->values);
+    gsl_matrix_free(medium->vectors);
     array_free(medium);
 }
 
@@ -262,13 +273,35 @@ void medium_plane(struct medium *medium, int f, size_t k)
                           &medium->point[j * points + i]);
 }
 
+/* The direction in which log M changes most (G10a). */
+static void find_normal(const struct medium *medium, const struct metric *metric, struct averaged *averaged)
+{
+    static const double variance = reach_of_kernel * reach_of_kernel / 7; /* of the kernel, in cells */
+    static const enum slope second[3][3] = {
+        {SLOPE_00, SLOPE_01, SLOPE_02}, {SLOPE_01, SLOPE_11, SLOPE_12}, {SLOPE_02, SLOPE_12, SLOPE_22}};
+    const double *slope = averaged->slope, flatter = medium->along[0].spacing / depth_spacing(medium);
+    double sum[9] = {[8] = 1e-24}; /* along depth where there is none but rounding */
+    for (int n = -1; n < 3; n++) {
+        double change[3] = {slope[SLOPE_0], slope[SLOPE_1], slope[SLOPE_2]};
+        for (int s = 0; s < 3 && n >= 0; s++)
+            change[s] = sqrt(variance) * slope[second[n][s]];
+        change[DEPTH] *= flatter;
+        metric_tilt(metric, change);
+        for (int s = 0; s < 9; s++)
+            sum[s] += change[s / 3] * change[s % 3];
+    }
+    gsl_matrix_view tensor = gsl_matrix_view_array(sum, 3, 3);
+    gsl_eigen_symmv(&tensor.matrix, medium->values, medium->vectors, medium->eigen);
+    const size_t most = gsl_vector_max_index(medium->values);
+    for (size_t s = 0; s < 3; s++)
+        averaged->normal[s] = gsl_matrix_get(medium->vectors, s, most);
+}
+
 void medium_point(const struct medium *medium, size_t i, size_t j, const struct metric *metric,
                   struct averaged *averaged)
 {
     *averaged = medium->point[j * medium->along[0].points + i];
-    if (medium->c->model.scene->body.grading != NULL) /* from rises a cell */
-        averaged->rise[DEPTH] *= medium->along[0].spacing / depth_spacing(medium);
-    metric_tilt(metric, averaged->rise);
+    if (!averaged->even) find_normal(medium, metric, averaged);
     for (int n = 0; n < POSITIVE; n++)
         averaged->mean[n] = fmax(averaged->mean[n], least_part * averaged->least[n]);
 }

@@ -31,9 +31,25 @@ enum cell {
     CELL
 };
 
-/* At a place: averages, the least of what they are of, and where the logarithm of M rises to, by slot. */
+/* log M and its first and second slopes in cells, by slot (G10a); those along the surface stand first. */
+enum slope {
+    SLOPE_NONE,
+    SLOPE_0,
+    SLOPE_1,
+    SLOPE_00,
+    SLOPE_01,
+    SLOPE_11,
+    FLAT,
+    SLOPE_2 = FLAT,
+    SLOPE_02,
+    SLOPE_12,
+    SLOPE_22,
+    SLOPES
+};
+
+/* At a place: averages, the least of what they are of, slopes, and by slot the normal of the layering. */
 struct averaged {
-    double mean[AVERAGES], cell[CELL], least[POSITIVE], rise[3], level;
+    double mean[AVERAGES], cell[CELL], least[POSITIVE], slope[SLOPES], normal[3];
     bool even; /* one rock all around */
 };
 

@@ -60,7 +60,7 @@ void piece_sample(const struct rock *rock, const struct shares *shares, double h
         piece->mean[0][n] += part * value[n];
         piece->mean[1][n] += part * height * value[n];
     }
-    piece->level += part * log(rock->lambda + 2 * rock->mu);
+    piece->slope[SLOPE_NONE] += part * log(rock->lambda + 2 * rock->mu);
     if (shares == NULL) return;
     cell_quantities(rock, shares, value, cell);
     for (int n = 0; n < CELL; n++)
@@ -92,11 +92,47 @@ void piece_add(const struct piece *one, double weight, double cell, struct piece
         sum->least[q] = fmin(sum->least[q], one->least[q]);
 }
 
-void piece_rise(const struct piece *one, double weight, struct piece *sum)
+void piece_smooth(double from, double to, double weight[3])
 {
-    sum->level += weight * one->level;
-    for (int s = 0; s < 2; s++)
-        sum->rise[s] += weight * one->rise[s];
+    const double end[2] = {from / reach_of_kernel, to / reach_of_kernel};
+    for (int order = 0; order < 3; order++)
+        weight[order] = 0;
+    for (int side = 0; side < 2; side++) {
+        const double s = end[side], sign = side == 0 ? -1 : 1, rest = 1 - s * s;
+        weight[0] += sign * 15. / 16 * s * (1 - s * s * (2. / 3 - s * s / 5));
+        weight[1] -= sign * 15. / 16 * rest * rest / reach_of_kernel;
+        weight[2] -= sign * 15. / 4 * rest * s / (reach_of_kernel * reach_of_kernel);
+    }
+}
+
+void piece_slopes(const double slope[], int slot, const double weight[3], double sum[])
+{
+    /* Without the slopes along the slot, and how many these are. */
+    static const struct from {
+        enum slope without, with;
+        int order;
+    } from[3][SLOPES] = {
+        {{0, SLOPE_NONE, 0}, {0, SLOPE_0, 1}, {0, SLOPE_00, 2}},
+        {{0, SLOPE_NONE, 0},
+         {0, SLOPE_1, 1},
+         {0, SLOPE_11, 2},
+         {SLOPE_0, SLOPE_0, 0},
+         {SLOPE_0, SLOPE_01, 1},
+         {SLOPE_00, SLOPE_00, 0}},
+        {{0, SLOPE_NONE, 0},
+         {0, SLOPE_2, 1},
+         {0, SLOPE_22, 2},
+         {SLOPE_0, SLOPE_0, 0},
+         {SLOPE_0, SLOPE_02, 1},
+         {SLOPE_00, SLOPE_00, 0},
+         {SLOPE_1, SLOPE_1, 0},
+         {SLOPE_1, SLOPE_12, 1},
+         {SLOPE_01, SLOPE_01, 0},
+         {SLOPE_11, SLOPE_11, 0}},
+    };
+    static const int count[3] = {3, 6, 10};
+    for (int n = 0; n < count[slot]; n++)
+        sum[from[slot][n].with] += weight[from[slot][n].order] * slope[from[slot][n].without];
 }
 
 void piece_turn(struct piece *piece)
@@ -112,17 +148,15 @@ void piece_average(const struct piece *ring, size_t plane, enum at at, ptrdiff_t
     const ptrdiff_t low = first < 0 ? -first : 0, high = pieces - 1 - first;
     for (int n = 0; n < PIECES; n++)
         piece[n] = ring + plane * (size_t)((first + n + RING) % RING);
-    *sum = (struct averaged){.level = 0};
+    *sum = (struct averaged){.even = false};
     memcpy(sum->least, piece[0]->least, sizeof sum->least);
     memcpy(sum->mean, piece[0]->mean[0], sizeof sum->mean);
     memcpy(sum->cell, piece[0]->cell, sizeof sum->cell);
-    sum->level = piece[0]->level;
     sum->even = piece[PIECES - 1]->alike + 1 >= PIECES;
     if (sum->even) return;
     memset(sum->mean, 0, sizeof sum->mean);
     for (int q = 0; q < CELL; q++) /* half a cell on either side */
         sum->cell[q] = (piece[PIECES / 2 - 1]->cell[q] + piece[PIECES / 2]->cell[q]) / 2;
-    sum->level = 0;
     for (int n = 0; n < PIECES; n++) {
         const double t = (n + .5) / 2 - reach_of_kernel, from = piece_kernel(at, t - .25),
                      to = piece_kernel(at, t + .25);
@@ -134,9 +168,8 @@ void piece_average(const struct piece *ring, size_t plane, enum at at, ptrdiff_t
         for (int q = 0; q < POSITIVE; q++)
             sum->least[q] = fmin(sum->least[q], piece[n]->least[q]);
         const struct piece *within = piece[n < low ? low : n > high ? high : n];
-        sum->level += within->level / PIECES;
-        for (int s = 0; s < 2; s++)
-            sum->rise[s] += within->rise[s] / PIECES;
-        sum->rise[DEPTH] += (t > 0 ? 2. : -2.) / PIECES * within->level;
+        double smooth[3];
+        piece_smooth(t - .25, t + .25, smooth);
+        piece_slopes(within->slope, DEPTH, smooth, sum->slope);
     }
 }

@@ -30,13 +30,9 @@ static double about_axis(double c11, double c33, double c13, double c55, double 
 static const int pair[STRESSES][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
 
 /* The upper triangle by rows. */
-static void about_normal(const double rise[3], double c11, double c33, double c13, double c55, double c66,
+static void about_normal(const double normal[3], double c11, double c33, double c13, double c55, double c66,
                          double stiffness[STIFFNESSES])
 {
-    const double length = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
-    double normal[3] = {0, 0, 1};
-    for (int s = 0; s < 3 && length > 0; s++)
-        normal[s] = rise[s] / length;
     int at = 0;
     for (int p = 0; p < STRESSES; p++)
         for (int q = p; q < STRESSES; q++)
@@ -55,7 +51,7 @@ bool medium_stiffness(const struct averaged *averaged, double stiffness[STIFFNES
     if (averaged->even || (fabs(c33 - c11) <= rounding * c11 && fabs(c55 - c66) <= rounding * c66 &&
                            fabs(c13 - *lambda) <= rounding * c11))
         return false;
-    about_normal(averaged->rise, c11, c33, c13, c55, c66, stiffness);
+    about_normal(averaged->normal, c11, c33, c13, c55, c66, stiffness);
     return true;
 }
 
@@ -75,5 +71,5 @@ void medium_part(const struct averaged *averaged, double *stiffness, double *lam
     const double p11 = softness * c13 * c13 + 2 * ratio * c13 + spread + p66;
     *mu = p66;
     *lambda = p33 - 2 * p66;
-    if (stiffness != NULL) about_normal(averaged->rise, p11, p33, p13, p55, p66, stiffness);
+    if (stiffness != NULL) about_normal(averaged->normal, p11, p33, p13, p55, p66, stiffness);
 }
