@@ -209,6 +209,20 @@ untold "blocks that meet but for rounding" check wall.nml 'block(1)%centre=.3,.5
 untold "ellipsoids askew, whose boxes alone are near" check wall.nml 'block(1)%shape=ellipsoid' 'block(2)%shape=ellipsoid' \
     'block(1)%centre=-1,2' 'block(1)%size=2,2' 'block(2)%centre=1.1,2.9' 'block(2)%size=2,2' load%centre=-2.5,2.5
 
+# --- A point force beside a block of a quarter of the density ---
+cat >light.nml <<'END'
+&scene dimension = 2, end_time = 6.0 /
+&material name = 'rock', density = 1.0, p_speed = 1.75, s_speed = 1.0 /
+&material name = 'foam', density = 0.25, p_speed = 1.75, s_speed = 1.0 /
+&body material = 'rock', low = -4, 0, high = 4, 4, spacing = 0.25 /
+&block material = 'foam', centre = 1, 1.5, size = 2, 1 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting' /
+&load kind = 'body-force', shape = 'point', direction = 0.3, 1, centre = 0.1, 1.5, history = 'gaussian', width = 0.7, delay = 3.5 /
+&receiver name = 'r', position = -2, 0 /
+END
+told "a force beside a jump of the density" "densities differ 4 times .* err by up to about 0.1" check light.nml
+untold "a force two spacings from it" check light.nml load%centre=-.5,1.5
+
 # --- A moment tensor beside a level interface by the general operator: .02 where shear moduli are 1 : 3, .04 where 1 : 5.5 ---
 cat >level.nml <<'END'
 &scene dimension = 2, end_time = 6.54 /
