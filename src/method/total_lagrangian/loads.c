@@ -343,6 +343,20 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages)
 }
 
 /* Lysmer & Kuhlemeyer 1969: traction = -rho c v on the point nearest to each surface element. */
+/* Between a point and the face lies matter whose inertia the point has, but whose compliance nothing has. Behind a
+ * damper of a part f of rho c it would pass for the mass (1 - f^2) rho times its length
+ * (doc/theory/sph-total-lagrangian.md, Eq 4a). */
+static void drop_inertia(struct tl_model *tl, const struct face_element *element, size_t i)
+{
+    static const double least = 0.25;
+    const struct boundary *boundary = &tl->model.scene->boundary[element->face];
+    const double part = fmin(1, fmin(boundary->normal_factor, boundary->shear_factor));
+    double depth = 0;
+    for (size_t a = 0; a < (size_t)tl->cloud->dimension; a++)
+        depth += element->normal[a] * (element->position[a] - tl->cloud->position[3 * i + a]);
+    tl->mass[i] *= fmax(least, 1 - part * part * element->area * depth / tl->cloud->volume[i]);
+}
+
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages)
 {
     const struct scene *scene = tl->model.scene;
@@ -368,6 +382,7 @@ selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages)
                                  (1 - normal) * boundary->shear_factor * material->s_speed;
             tl->damper[d * i + a] += element->area * material->density * speed;
         }
+        drop_inertia(tl, element, i);
     }
     tl->model.damped = tl->damper != NULL;
     return SELAS_OK;
