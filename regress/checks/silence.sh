@@ -382,11 +382,12 @@ cat >kernels.nml <<'END'
 &boundary face = 'all', kind = 'roller' /
 &initial kind = 'plane-wave', direction = 1, 0, width = .2, centre = 1, 0, amplitude = .0001 /
 END
-untold "waves on a lattice's points" check kernels.nml scene%end_time=4.5
-told "wider kernels" "'total-lagrangian' err by up to 0.1[3-5] when they have travelled to end_time; finer" check kernels.nml method%kernel=quintic
-told "jitter, whatever the spacing" "err by up to 0.5[0-9] .*whatever the spacing; variant = 'cloud' would be right" check kernels.nml body%jitter=.2
-told "held by less" "err by up to 0.6[0-9] .*whatever the spacing; variant = 'cloud' would be right" check kernels.nml body%jitter=.1 method%hourglass=.02
-told "on the cloud's points they err as on a lattice" "'cloud' err by up to 0.1 " check kernels.nml body%jitter=.2 method%name=smoothed-point method%law=
+untold "waves on a lattice's points" check kernels.nml scene%end_time=2.7
+told "wider kernels" "'total-lagrangian' err by up to 0.2[0-9] when they have travelled to end_time; finer" check kernels.nml method%kernel=quintic
+told "jitter, whatever the spacing" "err by up to 0.7[0-9] .*whatever the spacing; variant = 'cloud' would be right" check kernels.nml body%jitter=.2
+told "held by less" "err by up to 0.8 .*whatever the spacing; variant = 'cloud' would be right" check kernels.nml body%jitter=.1 method%hourglass=.02
+told "what is seen last errs twice as much as the mean (.088 wrong)" "err by up to 0.1 when" check kernels.nml scene%end_time=2.9
+told "on the cloud's points they err as on a lattice" "'cloud' err by up to 0.1[0-9] " check kernels.nml body%jitter=.2 method%name=smoothed-point method%law=
 particles="method%law= method%variant=updated-lagrangian method%viscosity_alpha=0 method%viscosity_beta=0 method%artificial_stress=0 stepping%scheme=rk4"
 awk 'function u(i) { i = sin(12.9898 * i) * 43758.5453; i -= int(i); return (i < 0 ? -i : i) * 2 - 1 }
     BEGIN { for (j = 0; j < 24; j++) for (i = 0; i < 96; i++) { n++
@@ -397,8 +398,42 @@ awk 'function u(i) { i = sin(12.9898 * i) * 43758.5453; i -= int(i); return (i <
     told "by another kernel (.80)" "err by up to 0.8[0-9] .*whatever the spacing" check kernels.nml body%jitter=.2 scene%end_time=2.6 $particles method%kernel=wendland
     told "with viscosity (.31)" "err by up to 0.6[0-9] .*whatever the spacing" check kernels.nml body%jitter=.3 scene%end_time=2.6 method%law= \
         method%variant=updated-lagrangian method%viscosity_alpha=.5 method%viscosity_beta=.5 method%artificial_stress=0
-    told "of a file (.83)" "err by up to 1 .*whatever the spacing" check kernels.nml body%shape=points body%file=scattered.txt scene%end_time=2.6 $particles
+    told "of a file (.83), which cloud would refuse" "err by up to 1 .*whatever the spacing; points in the order of a lattice" check kernels.nml body%shape=points body%file=scattered.txt scene%end_time=2.6 $particles
 }
+
+told "with a moved face, which cloud would refuse" "whatever the spacing; variant = 'consistent' would be right" check pushed.nml scene%end_time=80 \
+    body%jitter=.2 boundary%kind=velocity boundary%direction=0,1 boundary%slip=T boundary%history=step boundary%amplitude=0
+cat >holed.nml <<'END'
+&scene dimension = 2, end_time = 5 /
+&method name = 'sph', variant = 'updated-lagrangian' /
+&material name = 'rock', density = 1, p_speed = 1, s_speed = .5 /
+&body material = 'rock', shape = 'plate-with-hole', spacing = .08, low = -1, -1, high = 1, 1, hole_centre = 0, 0, hole_radius = .4 /
+&load face = 'x-', shape = 'face', direction = 1, 0, history = 'gaussian', width = .2, delay = 1, amplitude = .0001 /
+&receiver name = 'r', position = .6, .5 /
+END
+told "updated-Lagrangian points around a hole" "whatever the spacing; variant = 'total-lagrangian' would be right" check holed.nml
+told "a narrow patch beside it" "only 5 points wide, .*; points 0.04 apart would be right" check holed.nml method%variant=total-lagrangian load%shape=square \
+    load%centre=-1,0 load%size=.4
+
+# --- Waves that stand in small bodies are as short as these (velocities .57, .003 wrong; regress/studies/bodies/held) ---
+cat >stands.nml <<'END'
+&scene dimension = 3, end_time = 8.83 /
+&method name = 'sph', variant = 'total-lagrangian', law = 'linear' /
+&material name = 'rock', density = 1, p_speed = 1.65352, s_speed = 1 /
+&body material = 'rock', spacing = .1, low = 0, 0, 0, high = .9, 1, .9 /
+&boundary face = 'z-', 'z+', kind = 'fixed' /
+&load face = 'y-', shape = 'face', direction = .93, -.57, .57, amplitude = .001, history = 'gaussian', width = .817, delay = 3.27 /
+&receiver name = 'r', position = .494, .18, .485 /
+END
+told "waves between held faces" "waves on the points of variant 'total-lagrangian' err by up to 0.7" check stands.nml
+untold "a body that follows its load" check stands.nml load%width=2 load%delay=10 scene%end_time=20 body%spacing=.05
+untold "central differences" check stands.nml method%gradient=central
+
+# --- Dampers half a step inside the face (.012 wrong with the whole inertia of their points) ---
+"$selas" -q pushed.nml method%gradient=central body%spacing=.025 body%high=2,.2 load%width=.4 load%delay=2 scene%end_time=5 "boundary(2)%face=x+" \
+    "boundary(2)%kind=transmitting" "boundary(2)%layer=lysmer" receiver%position=1.8,.1 output%plots=F output%directory=out >said 2>&1
+awk '!/^#/ { v = exp(-(($1 - 2 - 1.8 / 1.7) / .4)^2 / 2) / 1700; d += ($5 - v)^2; s += v * v } END { exit !(s > 0 && sqrt(d / s) < .007) }' out/r.dat
+verdict "dampers on points inside the face" $?
 
 # --- Turned waves leave through absorbing faces, too (.21 wrong) ---
 cat >leaves.nml <<'END'

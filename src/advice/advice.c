@@ -212,6 +212,8 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_nothing(&adviser);
     look_at_tables(&adviser, stepper);
     look_at_ligament(&adviser);
+    for (size_t k = 0; k < scene->loads; k++)
+        if (has_patch(&scene->load[k])) look_at_points(&adviser, stepper->model, k);
     if (scene->body.shape != BODY_POINTS) look_at_mirrors(&adviser);
     if (!body_is_box(&scene->body)) return adviser.count;
     look_at_meetings(&adviser);
@@ -242,7 +244,6 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     for (size_t k = 0; k < scene->loads; k++) {
         look_at_absorbers(&adviser, k);
         if (!outruns_rayleigh(&adviser, k)) look_at_passed(&adviser, k);
-        if (has_patch(&scene->load[k])) look_at_points(&adviser, stepper->model->patch, k);
     }
     return adviser.count;
 }

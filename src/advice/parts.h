@@ -37,10 +37,13 @@ double half_size(const struct load *load, int axis);
 double error_of_waves(const struct scene *scene, const struct wave_law *law, double k, double way);
 /* How far waves run by end_time, or before they leave through absorbing faces. */
 double longest_way(const struct scene *scene, double speed);
-/* Wave number of what is typical in the velocity of the initial state, its root mean square; angular frequency that
- * loads send with half their largest amplitude; 0: not known. */
-double typical_number(const struct scene *scene);
+/* Wave number of what is typical in the velocity of the initial state where phases err as its power order + 1 (the
+ * root of the mean of its power 2 order + 2); angular frequency that loads send with half their largest amplitude; 0:
+ * not known. */
+double typical_number(const struct scene *scene, double order);
 double typical_frequency(const struct scene *scene);
+/* Would the cloud method take the scene, and is not that of the model? */
+bool cloud_would_run(const struct adviser *adviser, const struct model *model);
 /* The consistent method? */
 bool on_splines(const struct model *model);
 
@@ -65,7 +68,7 @@ void look_at_method(struct adviser *adviser, const struct model *model);
 /* Loads' waves that splines carry too far. */
 void look_at_long_way(struct adviser *adviser, const struct model *model);
 /* A patch on points that do not see it as it is. */
-void look_at_points(struct adviser *adviser, enum patch_sight sight, size_t load);
+void look_at_points(struct adviser *adviser, const struct model *model, size_t load);
 /* Absorbing layers thinner than the spacing deserves. */
 void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
 /* Slabs between faces that guide waves, which grow in layers. */

@@ -6,6 +6,7 @@
 #include "scene/boundary.h"
 
 #include <math.h>
+#include <stdio.h>
 
 /* A square whose edges lie on lattice planes is seen as it is. */
 static void look_at_edges(struct adviser *adviser, size_t k, const char *why)
@@ -83,7 +84,7 @@ static void look_at_particles(struct adviser *adviser, size_t k)
 }
 
 /* Least-squares gradients under a patch of few points. */
-static void look_at_ringing(struct adviser *adviser, size_t k)
+static void look_at_ringing(struct adviser *adviser, const struct model *model, size_t k)
 {
     enum { FEW = 10 };
     const struct scene *scene = adviser->scene;
@@ -97,20 +98,28 @@ static void look_at_ringing(struct adviser *adviser, size_t k)
         whole = whole && size >= 0.999 * (scene->body.high[axis] - scene->body.low[axis]);
     }
     if (whole || width > FEW * scene->body.spacing) return;
+    const bool box = body_is_box(&scene->body);
+    char right[80] = "method%gradient = 'central', or method%name = 'smoothed-point',";
+    if ((!box || scene->body.jitter > 0) && cloud_would_run(adviser, model))
+        snprintf(right, sizeof right, "method%%variant = 'cloud'");
+    else if (!box || scene->body.jitter > 0)
+        snprintf(right, sizeof right, box ? "method%%variant = 'consistent'" : "points %.3g apart",
+                 width / FEW);
     advise(
         adviser,
         "load %zu is only %.3g points wide, and with least-squares gradients the surface under it rings on; "
-        "%s, or method%%name = 'smoothed-point', would be right",
-        scene->load[k].group + 1, width / scene->body.spacing,
-        scene->body.jitter > 0.0 ? "method%variant = 'cloud'" : "method%gradient = 'central'");
+        "%s would be right",
+        scene->load[k].group + 1, width / scene->body.spacing, right);
 }
 
-void look_at_points(struct adviser *adviser, enum patch_sight sight, size_t k)
+void look_at_points(struct adviser *adviser, const struct model *model, size_t k)
 {
-    if (sight == PATCH_BY_POINTS && adviser->scene->load[k].shape == LOAD_SQUARE)
+    const enum patch_sight sight = model->patch;
+    const bool box = body_is_box(&adviser->scene->body);
+    if (sight == PATCH_BY_POINTS && box && adviser->scene->load[k].shape == LOAD_SQUARE)
         look_at_edges(adviser, k, "points");
-    if (sight == PATCH_BY_CELLS) look_at_particles(adviser, k);
-    if (sight == PATCH_RINGS) look_at_ringing(adviser, k);
+    if (sight == PATCH_BY_CELLS && box) look_at_particles(adviser, k);
+    if (sight == PATCH_RINGS) look_at_ringing(adviser, model, k);
 }
 
 /* Between the rim of a hole and an edge: velocities were .24 to .39 wrong at 5 points, .06 to .12 at 10, .04 to .08 at

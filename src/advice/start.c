@@ -72,13 +72,14 @@ double longest_way(const struct scene *scene, double speed)
     return fmin(way, speed * scene->end_time);
 }
 
-double typical_number(const struct scene *scene)
+double typical_number(const struct scene *scene, double order)
 {
     const struct initial *initial = &scene->initial;
     const bool plane = initial->kind == INITIAL_PLANE_WAVE;
     if (plane && initial->wavelength > 0) return 2 * M_PI / initial->wavelength;
     if (!plane && initial->kind != INITIAL_GAUSSIAN) return 0;
-    return sqrt(1 + (plane ? 1 : scene->dimension) / 2.) / initial->width;
+    const double half = 1 + (plane ? 1 : scene->dimension) / 2.;
+    return pow(tgamma(half + order + 1) / tgamma(half), 0.5 / (order + 1)) / initial->width;
 }
 
 /* What the velocities of a pulse or a Gaussian err by (initial-states.md, Eq 3a). */
@@ -87,7 +88,7 @@ static double error_of_state(const struct scene *scene, const struct wave_law *l
     const bool plane = scene->initial.kind == INITIAL_PLANE_WAVE;
     const double speed = slower ? slowest_speed(scene) : plane_wave_speed(scene);
     const double way = longest_way(scene, speed);
-    const double k = typical_number(scene) * (slower ? plane_wave_speed(scene) / speed : 1);
+    const double k = typical_number(scene, 0) * (slower ? plane_wave_speed(scene) / speed : 1);
     return (plane ? 1 : slower ? law->turned : law->spread) * error_of_waves(scene, law, k, way);
 }
 
@@ -264,7 +265,7 @@ void look_at_time_error(struct adviser *adviser, const struct stepper *stepper)
     const bool told = scene->reference.kind[0] != '\0';
     const bool leapfrog = (stepper->scheme->can & SCHEME_UNWARPS) != 0 && stepper->model->self_adjoint;
     if (!leapfrog || stepper->unwarp || told) return;
-    const double omega = fmax(typical_number(scene) * plane_wave_speed(scene), typical_frequency(scene));
+    const double omega = fmax(typical_number(scene, 0) * plane_wave_speed(scene), typical_frequency(scene));
     const double phase = omega * scene->end_time * pow(omega * stepper->dt, 2) / 24;
     const bool better = scheme_serves(scheme_find("modified-equation"), stepper->model);
     if (phase > seen)

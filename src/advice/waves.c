@@ -1,12 +1,16 @@
 /* What waves err by on their way: those of loads and moved faces, on points of any method. */
 #include "advice/parts.h"
 
+#include "method/methods.h"
 #include "scene/extent.h"
 #include "scene/initial.h"
 #include "scene/resolution.h"
 
 #include <math.h>
 #include <string.h>
+
+/* What waves err by for each wavelength, whatever the spacing, is told of from here on. */
+#define LASTING .005
 
 static bool along(const struct scene *scene, const double direction[3], int axis)
 {
@@ -166,30 +170,75 @@ static double sending_begins(const struct scene *scene)
     return first;
 }
 
+bool cloud_would_run(const struct adviser *adviser, const struct model *model)
+{
+    const struct method *cloud = method_find("smoothed-point", "cloud");
+    return model->method != cloud && method_takes(cloud, adviser->scene);
+}
+
+/* What would carry waves better on the same body; "": finer points alone. */
+static const char *better_points(const struct adviser *adviser, const struct model *model)
+{
+    const struct body *body = &adviser->scene->body;
+    const bool scattered = body->jitter > 0 || body->shape == BODY_POINTS;
+    if (scattered && cloud_would_run(adviser, model)) return "variant = 'cloud'";
+    if (body_is_box(body)) return "variant = 'consistent'";
+    if (model->waves.floor > 2 * model->waves.scatter) return "variant = 'total-lagrangian'";
+    return model->waves.scatter > LASTING ? "points in the order of a lattice" : "";
+}
+
+/* Wave number of the slowest wave that stands between held faces: half a wave between two, a quarter behind one. */
+static double standing_number(const struct scene *scene)
+{
+    double number = 0;
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double edge = scene->body.high[axis] - scene->body.low[axis];
+        int held = 0;
+        for (int face = 2 * axis; face < 2 * axis + 2; face++)
+            held += boundary_meaning(&scene->boundary[face])->holds == HOLDS_ALL;
+        number = hypot(number, held * M_PI / 2 / edge);
+    }
+    return number;
+}
+
+/* What a state at t = 0 errs by when it is seen last: what is lost on the way, and what stays whatever the spacing. */
+static double error_of_first(const struct scene *scene, const struct wave_law *law)
+{
+    const struct wave_law lost = {.constant = law->constant, .order = law->order};
+    const struct wave_law lasting = {.floor = law->floor + (scene->initial.shear ? law->shear : 0)};
+    const double way = plane_wave_speed(scene) * scene->end_time;
+    return error_of_waves(scene, &lost, typical_number(scene, law->order), way) +
+           error_of_waves(scene, &lasting, typical_number(scene, 0), way);
+}
+
+/* What waves err by that loads and moved faces send. In a body that is held they are as short as it is small, and go on
+ * if the source has their frequency; else the body follows (doc/howto/spacing.md, Eq 2). */
+static double error_of_sent(const struct scene *scene, const struct wave_law *waves)
+{
+    static const double counts = 1e-3;
+    const double slowest = slowest_sent(scene), sent = typical_frequency(scene) / slowest;
+    const double standing = standing_number(scene), k = hypot(sent, standing);
+    const bool follows = standing * slowest > source_cutoff_at(scene, counts);
+    const double way = slowest * (scene->end_time - sending_begins(scene));
+    const struct wave_law law = {.constant = waves->sent,
+                                 .order = waves->sent_order,
+                                 .floor = waves->floor + (slowest < scene_fastest(scene) ? waves->shear : 0)};
+    return sent > 0 ? error_of_waves(scene, &law, k, follows ? fmin(way, M_PI / k) : way) : 0;
+}
+
 void look_at_method(struct adviser *adviser, const struct model *model)
 {
     static const double seen = .1;
     const struct scene *scene = adviser->scene;
-    const double slowest = slowest_sent(scene), omega = typical_frequency(scene);
     if (scene->reference.kind[0] != '\0' || !(scene->body.spacing > 0) || on_splines(model)) return;
     const bool papers = strcmp(model->method->variant, "paper") == 0;
     if (papers) look_at_pressed_faces(adviser);
-    struct wave_law first = model->waves, sent = model->waves;
-    if (scene->initial.shear) first.floor += first.shear;
-    if (slowest < scene_fastest(scene)) sent.floor += sent.shear;
     const double faces =
-        papers ? error_at_faces(scene, sent.ends, plane_wave_speed(scene) * scene->end_time) : 0;
-    const double start =
-        error_of_waves(scene, &first, typical_number(scene), plane_wave_speed(scene) * scene->end_time);
-    const double error = fmax(start, error_of_waves(scene, &sent, omega / slowest,
-                                                    slowest * (scene->end_time - sending_begins(scene)))) +
-                         faces;
-    const bool remains = sent.floor > .005 || faces > seen,
-               cloud = strcmp(model->method->variant, "cloud") == 0;
-    const bool scattered = scene->body.jitter > 0 || scene->body.shape == BODY_POINTS;
-    const char *better = scene->body.shape == BODY_PLATE_WITH_HOLE ? ""
-                         : scattered && !cloud                     ? "variant = 'cloud'"
-                                                                   : "variant = 'consistent'";
+        papers ? error_at_faces(scene, model->waves.ends, plane_wave_speed(scene) * scene->end_time) : 0;
+    const double error =
+        fmax(error_of_first(scene, &model->waves), error_of_sent(scene, &model->waves)) + faces;
+    const bool remains = model->waves.floor + model->waves.shear > LASTING || faces > seen;
+    const char *better = error > seen ? better_points(adviser, model) : "";
     if (error > seen)
         advise(adviser,
                "waves on the points of variant '%s' err by up to %.2g when they have travelled to "

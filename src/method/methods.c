@@ -96,6 +96,16 @@ static selas_status check_abilities(const struct method *method, const struct sc
     return scene_check_faces(scene, method->faces, name, messages);
 }
 
+bool method_takes(const struct method *method, const struct scene *scene)
+{
+    struct messages said = {0};
+    selas_status status = check_abilities(method, scene, &said);
+    if (status == SELAS_OK && method->suits != NULL) status = method->suits(scene, &said);
+    const bool quietly = said.warnings == 0;
+    messages_free(&said);
+    return status == SELAS_OK && quietly;
+}
+
 selas_status model_create(const struct scene *scene, struct model **model, struct messages *messages)
 {
     *model = NULL;

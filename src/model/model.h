@@ -82,6 +82,8 @@ struct method {
     bool damping;         /* materials may have q_p and q_s: see method/damped/damped.h */
     bool ranks;           /* shares its work among ranks (parallel/ranks.h) */
     bool point_materials; /* each point that a host gives may have a material of its own */
+    /* SELAS_OK if it takes the scene's points and loads, for those who ask before a model is built; NULL: it does. */
+    selas_status (*suits)(const struct scene *scene, struct messages *messages);
     /* Checks the scene for this method and builds the model; says in messages what cannot be. */
     selas_status (*create)(const struct scene *scene, struct model **model, struct messages *messages);
 };
@@ -215,12 +217,12 @@ enum patch_sight {
 };
 
 /* What a plane wave errs by for each of its wavelengths that it travels, if it has p points: floor + constant /
- * p^order (doc/howto/spacing.md), S waves shear more; all 0: not told. Of the consistent method alone: shares of it
- * that a Gaussian state errs by, as it is and as slower waves (initial-states.md), and what waves of loads err by, p at
- * half their largest amplitude: sent / p^sent_order. Of the paper's: what they err by at each end of a bar that is not
- * held. */
+ * p^order (doc/howto/spacing.md), S waves shear more; all 0: not told. What waves of loads err by, p at half their
+ * largest amplitude: floor + sent / p^sent_order. Of the consistent method alone: shares of it that a Gaussian state
+ * errs by, as it is and as slower waves (initial-states.md). Of the paper's: what they err by at each end of a bar that
+ * is not held. Of scattered points the share of `floor` that their scatter has. */
 struct wave_law {
-    double constant, order, floor, spread, turned, shear, sent, sent_order, ends;
+    double constant, order, floor, spread, turned, shear, sent, sent_order, ends, scatter;
 };
 
 struct model {

@@ -11,6 +11,15 @@ const struct tl_form cloud_form = {
     .traction = cloud_traction,
 };
 
+static selas_status suits(const struct scene *scene, struct messages *messages)
+{
+    struct cloud *cloud = NULL;
+    const selas_status status =
+        scene_loads_move(scene) ? SELAS_UNSUPPORTED : cloud_method_points(scene, &cloud, messages);
+    cloud_free(&cloud);
+    return status;
+}
+
 static selas_status create(const struct scene *scene, struct model **model, struct messages *messages)
 {
     struct tl_options options = tl_default_options();
@@ -30,5 +39,6 @@ const struct method method_cloud = {
     .variant = "cloud",
     .words = "kernel smoothing_length hourglass",
     .faces = CAN_HOLD | CAN_MIRROR | CAN_DAMP,
+    .suits = suits,
     .create = create,
 };

@@ -300,13 +300,16 @@ static struct wave_law waves_of(const struct paper *paper)
 {
     const double others = paper->dimension - 1, mu = paper->material->mu;
     const double ratio = (paper->material->plane_lambda + 2 * mu) / mu;
-    if (!paper->options.zero_row_sums && others > 0) return (struct wave_law){.order = 1, .floor = 1};
+    if (!paper->options.zero_row_sums && others > 0)
+        return (struct wave_law){.order = 1, .sent_order = 1, .floor = 1};
     double m[2];
     second_moments(&paper->options, paper->dimension, m);
     const double p = M_PI * fabs(m[0] / 2 + others * m[1] / 2 / ratio - 1);
     const double s = M_PI * fabs(m[0] / 2 + (others - 1 + ratio) * m[1] / 2 - 1);
-    return (struct wave_law){.constant = .9,
+    return (struct wave_law){.constant = .7,
                              .order = 1,
+                             .sent = .9,
+                             .sent_order = 1,
                              .floor = p,
                              .shear = others > 0 ? s - p : 0,
                              .ends = paper->options.zero_row_sums ? 0 : 1};

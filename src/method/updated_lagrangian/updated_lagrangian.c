@@ -225,11 +225,14 @@ static struct wave_law waves_of(const struct updated *updated, double disorder)
     const struct updated_options *options = &updated->options;
     const double lost =
         kernel_dispersion(options->kernel, updated->dimension, options->smoothing_length, 0); /* (2.1) */
+    const double scatter = 50 / (1 + 10 * options->hourglass) * disorder / updated->dimension;
     const bool thick = options->alpha >= .5;
-    return (struct wave_law){.constant = thick ? 1.7 + 2 * options->alpha : 86 * lost,
+    return (struct wave_law){.constant = thick ? 1.3 + 1.55 * options->alpha : 44 * lost,
                              .order = thick ? 1 : 2,
-                             .floor = .5 * options->artificial_stress +
-                                      50 / (1 + 10 * options->hourglass) * disorder / updated->dimension};
+                             .sent = thick ? 1.7 + 2 * options->alpha : 86 * lost,
+                             .sent_order = thick ? 1 : 2,
+                             .floor = .5 * options->artificial_stress + scatter,
+                             .scatter = scatter};
 }
 
 static selas_status build(struct updated *updated, struct messages *messages)
