@@ -271,7 +271,7 @@ static double density_beside(const struct scene *scene)
  * forces act within 1.5 spacings of a jump of the density by 2.2 (r - 1) / p^2 of the densities there. */
 void look_at_weights(struct adviser *adviser)
 {
-    static const double seen = .1, of_densities = .8, beside = 2.2, of_moduli = .45;
+    static const double seen = .1, of_densities = .85, beside = 2.2, of_moduli = .45;
     const struct scene *scene = adviser->scene;
     const double points = points_per_wavelength(scene);
     double least = INFINITY, most = 0, moduli = 1;
@@ -310,7 +310,7 @@ static bool wall_between(const struct scene *scene, const struct ground_block *o
 }
 
 /* Walls between soft blocks. Measured in the plane, moduli 10 : 1, at 6 points a wavelength: thinner than .9 spacings
- * .06 to .25, thicker ones .03 to .15 (doc/theory/general-ground.md, section 7). */
+ * .05 to .20, thicker ones .03 to .10 (doc/theory/general-ground.md, section 7). */
 void look_at_walls(struct adviser *adviser)
 {
     static const double thin = .9, softer = 3;
