@@ -57,7 +57,7 @@ contains
       call sim%open_deck('no/such/deck.nml', status)
       call ok('a deck that is not there', status == selas_bad_deck .and. index(sim%message(), 'no/such') > 0)
       call sim%step(1, status)
-      call ok('a simulation that did not open', status == selas_bad_argument)
+      call ok('a simulation that did not open', status == selas_bad_deck)
       call ok('no time without a simulation', ieee_is_nan(sim%time()))
       call sim%close()
       call sim%step(1, status)
