@@ -472,7 +472,27 @@ static selas_status look(selas_simulation *run, const struct task *task, const c
     return status == SELAS_UNSUPPORTED ? SELAS_OK : status;
 }
 
-/* Six points of the body by chance. */
+/* Does rock jump near a place, so that receivers of the general operator know kinks which fields do not (G30 of
+ * doc/theory/general-ground.md)? */
+static bool jumps_near(const struct scene *scene, const double position[3])
+{
+    enum { REACH = 4, FINE = 8 }; /* spacings; places in one */
+    double from[3], place[3];
+    ground_from_deck(&scene->body, position, from);
+    const struct rock here = ground_at(scene, from);
+    for (int code = 0; code < 27; code++)
+        for (int n = 1; n <= REACH * FINE; n++) {
+            const double away = scene->body.spacing * n / FINE;
+            const double way[3] = {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
+            for (int axis = 0; axis < 3; axis++)
+                place[axis] = from[axis] + (axis < scene->dimension ? way[axis] * away : 0);
+            const struct rock rock = ground_at(scene, place);
+            if (fabs(log(rock.mu / here.mu)) > .01 || fabs(log(rock.lambda / here.lambda)) > .01) return true;
+        }
+    return false;
+}
+
+/* Six points of the body by chance, of ground that varies those in even rock. */
 static bool choose_places(const struct task *task)
 {
     struct outcome o = {.status = SELAS_OK};
@@ -482,8 +502,11 @@ static bool choose_places(const struct task *task)
     selas_simulation *run = open(task, &o, &echo);
     places.count = 0;
     if (o.status == SELAS_OK && selas_points(run, &points, &position) == SELAS_OK)
-        for (; places.count < PLACES; places.count++)
+        for (int look = 0; places.count < PLACES && look < 200; look++) {
             memcpy(places.at[places.count], position + 3 * chance(points), sizeof places.at[0]);
+            const bool kinked = ground_needs_general(task->scene) || task->scene->body.layers > 0;
+            if (!kinked || !jumps_near(task->scene, places.at[places.count])) places.count++;
+        }
     selas_close(&run);
     free(echo);
     return places.count > 0;
