@@ -26,7 +26,7 @@ static void find_share(struct glut *g)
 /* Does the rock jump within some spacings along the axes or diagonals of the lattice? */
 static bool jumps_near(const struct consistent *c, const double centre[3])
 {
-    enum { REACH = 3, FINE = 8 };
+    enum { REACH = 3, FINE = 32 };
     for (int code = 0; code < (c->dimension == 2 ? 9 : 27); code++) {
         const double way[3] = {code % 3 - 1, code / 3 % 3 - 1, c->dimension == 2 ? 0 : code / 9 - 1};
         struct rock last = consistent_rock_at(c, centre);
