@@ -8,7 +8,6 @@
 #include "scene/topography.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* --- Jumps -------------------------------------------------------------------------------------------- */
@@ -244,23 +243,22 @@ static double modulus_jump(const struct scene *scene, const struct ground_block 
 /* How many times the density differs along the axes within 1.5 spacings of a point force, at most. */
 static double density_beside(const struct scene *scene)
 {
-    static const double step = .5;
     enum { STEPS = 3 };
-    const struct body *body = &scene->body;
+    const double step = .5 * scene->body.spacing;
     double most = 1;
     for (size_t k = 0; k < scene->loads; k++) {
         const struct load *load = &scene->load[k];
         double centre[3] = {0, 0, 0}, low = INFINITY, high = 0;
         if (load->kind == LOAD_MOMENT_TENSOR || load->shape != LOAD_POINT) continue;
-        ground_from_deck(body, load->centre, centre);
-        for (int n = -STEPS * scene->dimension; n <= STEPS * scene->dimension; n++) {
-            const int axis = (abs(n) + STEPS - 1) / STEPS - (n != 0);
-            double place[3] = {centre[0], centre[1], centre[2]};
-            if (n != 0) place[axis] += (n < 0 ? -step : step) * (abs(n) - axis * STEPS) * body->spacing;
-            const double density = ground_at(scene, place).density;
-            low = fmin(low, density);
-            high = fmax(high, density);
-        }
+        ground_from_deck(&scene->body, load->centre, centre);
+        for (int axis = 0; axis < scene->dimension; axis++)
+            for (int n = -STEPS; n <= STEPS; n++) {
+                double place[3] = {centre[0], centre[1], centre[2]};
+                place[axis] += n * step;
+                const double density = ground_at(scene, place).density;
+                low = fmin(low, density);
+                high = fmax(high, density);
+            }
         most = fmax(most, high / low);
     }
     return most;
@@ -268,10 +266,10 @@ static double density_beside(const struct scene *scene)
 
 /* Interfaces that the splines carry smoothly. Measured in the plane (regress/studies/blocks): blocks of r times the
  * ground's density, or of r times its moduli, err by so much (r - 1) / p^2 at most, p the points a wavelength; where
- * forces act within 1.5 spacings of a jump of the density by 2.2 (r - 1) / p^2 of the densities there. */
+ * forces act within 1.5 spacings of a jump of the density by 2.4 (r - 1) / p^2 of the densities there. */
 void look_at_weights(struct adviser *adviser)
 {
-    static const double seen = .1, of_densities = .85, beside = 2.2, of_moduli = .45;
+    static const double seen = .1, of_densities = .85, beside = 2.4, of_moduli = .45;
     const struct scene *scene = adviser->scene;
     const double points = points_per_wavelength(scene);
     double least = INFINITY, most = 0, moduli = 1;

@@ -98,11 +98,11 @@ static void look_at_ringing(struct adviser *adviser, const struct model *model, 
         whole = whole && size >= 0.999 * (scene->body.high[axis] - scene->body.low[axis]);
     }
     if (whole || width > FEW * scene->body.spacing) return;
-    const bool box = body_is_box(&scene->body);
+    const bool box = body_is_box(&scene->body), even = box && !(scene->body.jitter > 0);
     char right[80] = "method%gradient = 'central', or method%name = 'smoothed-point',";
-    if ((!box || scene->body.jitter > 0) && cloud_would_run(adviser, model))
+    if (!even && cloud_would_run(adviser, model))
         snprintf(right, sizeof right, "method%%variant = 'cloud'");
-    else if (!box || scene->body.jitter > 0)
+    else if (!even)
         snprintf(right, sizeof right, box ? "method%%variant = 'consistent'" : "points %.3g apart",
                  width / FEW);
     advise(

@@ -342,7 +342,6 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages)
     return status;
 }
 
-/* Lysmer & Kuhlemeyer 1969: traction = -rho c v on the point nearest to each surface element. */
 /* Between a point and the face lies matter whose inertia the point has, but whose compliance nothing has. Behind a
  * damper of a part f of rho c it would pass for the mass (1 - f^2) rho times its length
  * (doc/theory/sph-total-lagrangian.md, Eq 4a). */
@@ -357,6 +356,7 @@ static void drop_inertia(struct tl_model *tl, const struct face_element *element
     tl->mass[i] *= fmax(least, 1 - part * part * element->area * depth / tl->cloud->volume[i]);
 }
 
+/* Lysmer & Kuhlemeyer 1969: traction = -rho c v on the point nearest to each surface element. */
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages)
 {
     const struct scene *scene = tl->model.scene;

@@ -338,9 +338,11 @@ selas_status forces_in_ground(struct consistent *c, moment_beside *beside, force
     w.beside = beside;
     w.at_kink = at_kink;
     for (size_t k = 0; status == SELAS_OK && k < scene->loads; k++) {
-        if (scene->load[k].kind == LOAD_TRACTION || load_moves(&scene->load[k])) continue;
+        const struct load *load = &scene->load[k];
+        const bool force = load->kind != LOAD_TRACTION && load->shape == LOAD_POINT && !load_moves(load);
+        if (load->kind != LOAD_MOMENT_TENSOR && !force) continue;
         sparse_free(&c->load.of[k]);
-        status = load_create(c, &scene->load[k], &c->load.of[k], &w, messages);
+        status = load_create(c, load, &c->load.of[k], &w, messages);
         status = ranks_agree(c->part.ranks, status, messages);
     }
     if (status == SELAS_OK && !sparse_list_sort(c, &c->load))

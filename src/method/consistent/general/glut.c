@@ -108,7 +108,6 @@ static void stress_of(double stiffness[STRESSES][STRESSES], double strain[3][3],
     }
 }
 
-/* Adds `share` of a stress at x of the axis across to a set of lines. */
 void glut_add_stress(struct glut *g, int set, double x, double share, double stress[3][3])
 {
     const struct consistent *c = g->c;
@@ -175,7 +174,7 @@ static void add_points(struct glut *g, const struct family *family, double (*sti
         if (fabs(share) < least) continue;
         stress_of(stiffness[k], g->strain, stress);
         glut_add_stress(g, 0, x, share, stress);
-        for (int axis = 0; axis < c->dimension; axis++) {
+        for (int axis = 0; axis < c->dimension && !g->plain; axis++) {
             if (axis == g->across) continue;
             find_slow(g, stiffness[k], c->slot[axis], stress);
             glut_add_stress(g, 1 + axis, x, share, stress);
@@ -206,7 +205,6 @@ static void curvature_line(struct glut *g, int axis, bool odd, double *line)
         line[i] *= half;
 }
 
-/* Products of a set's lines across with those along the interface. */
 void glut_add_lines(struct glut *g, int set, double *const work[3], struct dense *field)
 {
     const struct consistent *c = g->c;
@@ -230,9 +228,11 @@ void glut_add_lines(struct glut *g, int set, double *const work[3], struct dense
         }
 }
 
+enum { SETS = 4 * 3 * 3 };
+
 double *glut_room(struct glut *g, double *work[3])
 {
-    enum { SETS = 4 * 3 * 3, ALL = SETS + 6 + STRESSES * STRESSES };
+    enum { ALL = SETS + 6 + STRESSES * STRESSES }; /* the last for each knot across, in add_points() */
     size_t most = 0;
     for (int axis = 0; axis < g->c->dimension; axis++)
         most = g->c->spline[axis]->count > most ? g->c->spline[axis]->count : most;
@@ -248,10 +248,17 @@ double *glut_room(struct glut *g, double *work[3])
     return room;
 }
 
-void glut_add_points(struct glut *g, double *work)
+void glut_clear(struct glut *g)
 {
+    double *first = g->line[0][0][0];
+    memset(first, 0, (size_t)(g->share - first) * sizeof *first);
+}
+
+void glut_add_points(struct glut *g, double *const work[3])
+{
+    double *behind = work[2] + (work[1] - work[0]);
     for (int f = 0; f < 3; f++)
-        add_points(g, &g->c->general->family[f], (double(*)[STRESSES][STRESSES])work);
+        add_points(g, &g->c->general->family[f], (double(*)[STRESSES][STRESSES])behind);
 }
 
 bool general_add_glut(const struct consistent *c, const struct load *load, const double centre[3],
@@ -276,7 +283,7 @@ bool general_add_glut(const struct consistent *c, const struct load *load, const
     consistent_part_moment(g.normal, g.lambda, g.mu, g.tangent, g.strain, g.slip);
     find_share(&g);
     general_find_lag(&g);
-    glut_add_points(&g, work[2] + (work[1] - work[0]));
+    glut_add_points(&g, work);
     for (int set = 0; set <= c->dimension; set++)
         if (set != 1 + g.across) glut_add_lines(&g, set, work, field);
     array_free(room);

@@ -19,10 +19,10 @@ struct glut {
     struct consistent_face face; /* ... and the rock changes along its normal alone */
     double normal[3];            /* by slot, as all that follows */
     double lambda, mu;           /* at the source */
-    double strain[3][3];         /* Gamma_n M (G21) */
+    double strain[3][3];         /* Gamma (G21); of a displacement that of (G30) */
     double tangent[3][3];        /* what is left of M for strains along the interface */
     double slip[3];              /* the part of M n along the interface, over mu */
-    double lag, press, slack;    /* (G23), (G23a): lengths, by modulus; the last a length */
+    double lag, press, slack;    /* (G23), E_M and E_r of (G30): lengths, over stresses but for the last */
     double stay[ALONGS];         /* (G24): lengths times stresses */
     bool plain, half;      /* a displacement is read: by the splines' values; halved on symmetry planes */
     double *share;         /* [knots] of the axis across (G22) */
@@ -32,13 +32,15 @@ struct glut {
 
 /* Together. What lies beside an interface acts by (G21) to (G25); `moment` keeps the part of strains along it. */
 moment_beside general_add_glut;
-/* glut.c: lines, of `most` numbers each, and work of three more and [STRESSES][STRESSES] for each knot across. NULL: no
- * memory. */
+/* glut.c: lines, all 0, and work. To be freed; NULL: no memory. */
 double *glut_room(struct glut *glut, double *work[3]);
-/* Adds C Gamma of the points by their shares, and products of a set's lines. */
-void glut_add_points(struct glut *glut, double *work);
-void glut_add_lines(struct glut *glut, int set, double *const work[3], struct dense *field);
+void glut_clear(struct glut *glut); /* lines := 0 */
+/* Adds the stress of `strain` at the points, by their shares (G22), to the lines; of a moment tensor (G25) too. */
+void glut_add_points(struct glut *glut, double *const work[3]);
+/* Adds `share` of a stress, by slot, at x of the axis across to a set of lines. */
 void glut_add_stress(struct glut *glut, int set, double x, double share, double stress[3][3]);
+/* Adds products of a set's lines across with those along the interface. */
+void glut_add_lines(struct glut *glut, int set, double *const work[3], struct dense *field);
 
 static inline double glut_spacing(const struct spline *spline)
 {

@@ -8,7 +8,6 @@
 #include "scene/ground.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Tractions at the place from those at the two knots beside it; at a free end they are 0. */
 static void find_share(struct glut *g)
@@ -42,26 +41,29 @@ static bool jumps_near(const struct consistent *c, const double centre[3])
     return false;
 }
 
-/* What is alike for all directions: false where nothing is lacking. */
-static bool find_glut(const struct consistent *c, const double centre[3], bool half, struct glut *g)
+/* What is alike for all directions, with room to be freed: NULL where nothing is lacking. False: no memory. */
+static bool begin(struct glut *g, double *work[3], double **room)
 {
-    *g = (struct glut){.c = c, .centre = {centre[0], centre[1], centre[2]}, .plain = true, .half = half};
-    return !general_is_part(c->model.scene) && jumps_near(c, centre) && general_find_normal(g) && g->surface;
-}
-
-/* (G30) */
-static bool add_kink(struct glut *g, const double direction[3], struct dense *field)
-{
-    const double *n = g->normal;
-    double *work[3], stress[3][3], along = 0;
-    double *room = glut_room(g, work), failed = room == NULL;
+    *room = NULL;
+    if (general_is_part(g->c->model.scene) || !jumps_near(g->c, g->centre)) return true;
+    if (!general_find_normal(g) || !g->surface) return true;
+    *room = glut_room(g, work);
+    double failed = *room == NULL;
     ranks_largest(g->c->part.ranks, 1, &failed);
-    if (room == NULL || failed != 0) {
-        array_free(room);
+    if (*room == NULL || failed != 0) {
+        array_free(*room);
         return false;
     }
     find_share(g);
     general_find_lag(g);
+    return true;
+}
+
+/* (G30) */
+static void add_kink(struct glut *g, double *const work[3], const double direction[3], struct dense *field)
+{
+    const double *n = g->normal;
+    double stress[3][3], along = 0;
     for (int i = 0; i < 3; i++)
         along += direction[i] * n[i];
     for (int i = 0; i < 3; i++)
@@ -70,24 +72,33 @@ static bool add_kink(struct glut *g, const double direction[3], struct dense *fi
             g->strain[i][j] = g->lag * shear / 2 + g->press * along * n[i] * n[j];
             stress[i][j] = -g->slack * along * ((i == j) - n[i] * n[j]);
         }
-    glut_add_points(g, work[2] + (work[1] - work[0]));
+    glut_add_points(g, work);
     glut_add_stress(g, 0, g->centre[g->across], 1, stress);
     glut_add_lines(g, 0, work, field);
-    array_free(room);
-    return true;
+}
+
+static struct glut glut_at(const struct consistent *c, const double centre[3], bool half)
+{
+    return (struct glut){.c = c, .centre = {centre[0], centre[1], centre[2]}, .plain = true, .half = half};
 }
 
 bool general_add_kink(const struct consistent *c, const double centre[3], const double direction[3],
                       bool half, struct dense *field)
 {
-    struct glut glut;
-    return !find_glut(c, centre, half, &glut) || add_kink(&glut, direction, field);
+    struct glut glut = glut_at(c, centre, half);
+    double *work[3], *room;
+    if (!begin(&glut, work, &room)) return false;
+    if (room != NULL) add_kink(&glut, work, direction, field);
+    array_free(room);
+    return true;
 }
 
 bool general_see_kink(const struct consistent *c, const double place[3], struct kinks *kinks)
 {
-    struct glut glut;
-    if (!find_glut(c, place, false, &glut)) return true;
+    struct glut glut = glut_at(c, place, false);
+    double *work[3], *room;
+    if (!begin(&glut, work, &room)) return false;
+    if (room == NULL) return true;
     struct dense field = {.value = array_new((size_t)c->dimension * c->volume, sizeof(double))};
     double failed = field.value == NULL;
     ranks_largest(c->part.ranks, 1, &failed);
@@ -95,12 +106,15 @@ bool general_see_kink(const struct consistent *c, const double place[3], struct 
         struct sparse *kink = &kinks->of[component];
         double direction[3] = {0};
         direction[c->slot[component]] = 1;
-        failed = !add_kink(&glut, direction, &field) || !sparse_take(c, &field, kink);
+        glut_clear(&glut);
+        add_kink(&glut, work, direction, &field);
+        failed = !sparse_take(c, &field, kink);
         ranks_largest(c->part.ranks, 1, &failed);
         const size_t sites = failed != 0 ? 0 : (size_t)c->dimension * kink->start[kink->planes];
         kinks->sites = sites > kinks->sites ? sites : kinks->sites;
     }
     array_free(field.value);
+    array_free(room);
     return failed == 0;
 }
 

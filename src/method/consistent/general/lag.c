@@ -115,7 +115,7 @@ static void sample(const struct glut *glut, const struct column *column, double 
     }
 }
 
-/* (G23), (G23a): under a stress of 1, or with strains `given` without stress. Far from interfaces the lattice's
+/* (G23), for (G30) too: under a stress of 1, or with strains `given` without stress. Far from interfaces the lattice's
  * displacement runs even with the exact one: at most knots. */
 static double find_lag(const struct glut *glut, const struct column *column, const double *soft,
                        const double *given)
