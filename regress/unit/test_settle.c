@@ -272,7 +272,7 @@ static void worst_shift(int dimension, double dip, double x, double z, bool grad
     struct from_deck deck = scene_of(dimension, dip, x, z, graded, true);
     struct messages messages = {0};
     struct model *model = NULL;
-    struct probe probe = {0};
+    struct probe probe = {.fields = 1U << SELAS_DISPLACEMENT};
     assert_int_equal(model_create(deck.scene, &model, &messages), SELAS_OK);
     const int last = dimension - 1;
     const double place[3] = {x, dimension == 2 ? z : .02, z};
@@ -319,12 +319,61 @@ static void test_displacement_beside_interfaces(void **state)
     assert_true(fmax(worst[0], worst[1]) < .02);
 }
 
+/* Of the strains that a profile reads: the largest error, in parts of the slopes of displacement; without the rock's
+ * jump (smooth) they would err by up to the ratio of the moduli. */
+static double worst_strain(int dimension, double dip, double x, double z)
+{
+    struct from_deck deck = scene_of(dimension, dip, x, z, false, true);
+    struct messages messages = {0};
+    struct model *model = NULL;
+    struct probe probe = {.fields = 1U << SELAS_STRAIN};
+    assert_int_equal(model_create(deck.scene, &model, &messages), SELAS_OK);
+    const int last = dimension - 1, cross = dimension == 2 ? 3 : 5;
+    const double place[3] = {x, dimension == 2 ? z : .02, z};
+    assert_int_equal(model->core->probe(model, place, &probe, &messages), SELAS_OK);
+    assert_true(probe.strains > 0 && probe.strains == probe.sites);
+    double worst = 0;
+    for (int field = 0; field < FIELDS; field++) {
+        double *u = field_at_rest(&deck, consistent_of(model), field, dip), slope[2][2], shift[2],
+               seen[6] = {0};
+        double *state = calloc(2 * model->unknowns, sizeof *state);
+        memcpy(state, u, model->unknowns * sizeof *u);
+        two_rocks(deck.scene, field, dip * M_PI / 180, (double[]){x, z}, shift, slope);
+        const double scale = fmax(hypot(slope[0][0], slope[0][1]), hypot(slope[1][0], slope[1][1]));
+        model_observe(model, &probe, SELAS_STRAIN, state, NULL, seen);
+        worst = fmax(worst, fabs(seen[0] - slope[0][0]) / scale);
+        worst = fmax(worst, fabs(seen[last] - slope[1][1]) / scale);
+        worst = fmax(worst, fabs(seen[cross] - (slope[0][1] + slope[1][0]) / 2) / scale);
+        free(state);
+        free(u);
+    }
+    probe_free(&probe);
+    model_free(&model);
+    from_deck_free(&deck);
+    return worst;
+}
+
+static void test_strains_beside_interfaces(void **state)
+{
+    (void)state;
+    static const double dip[] = {0, 5, 20, 40}, away[] = {-.1, -.02, .02, .05, .1};
+    for (size_t i = 0; i < sizeof dip / sizeof *dip; i++)
+        for (size_t j = 0; j < sizeof away / sizeof *away; j++) {
+            const double x = .013 + .027 * (double)j, z = 1 + x * tan(dip[i] * M_PI / 180) + away[j];
+            const double off = worst_strain(2, dip[i], x, z);
+            if (off > .02) fail_msg("dip %g, %g from the interface: %g", dip[i], away[j], off);
+        }
+    assert_true(worst_strain(3, 0, .013, .98) < .01);
+    assert_true(worst_strain(3, 0, .013, 1.02) < .01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_steady_fields_balance),
         cmocka_unit_test(test_work_beside_interfaces_aslant),
         cmocka_unit_test(test_displacement_beside_interfaces),
+        cmocka_unit_test(test_strains_beside_interfaces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Where the rock jumps, what the splines or particles carry smoothly does not: fields that are asked for there, and
- * states at t = 0 that lie across it. */
+/* Where the rock jumps, what the splines or particles carry smoothly does not: states at t = 0 that lie across it,
+ * weights, walls. */
 #include "advice/parts.h"
 
 #include "base/memory.h"
@@ -28,12 +28,8 @@ static bool differs(const struct scene *scene, const double place[3], int axis, 
            fabs(shear[1] - shear[0]) > slight * fmin(shear[0], shear[1]);
 }
 
-/* Which places count, of what; NULL: all do. */
-typedef bool (*counted)(const struct scene *scene, const void *of, const double place[3]);
-
-/* Does the rock jump on a line through `place` at a place that counts? */
-static bool jumps_on(const struct scene *scene, const double place[3], int axis, double from, double to,
-                     counted counts, const void *of)
+bool jumps_on(const struct scene *scene, const double place[3], int axis, double from, double to,
+              jump_counts *counts, const void *of)
 {
     double *at = array_new(ground_jumps_at_most(scene) + 1, sizeof *at);
     bool found = false;
@@ -71,9 +67,8 @@ static bool middle_of(const struct scene *scene, const struct ground_block *bloc
     return true;
 }
 
-/* The same of lines through a box of the lattice: evenly over it, and through each block. */
-static bool jumps_in(const struct scene *scene, const double low[3], const double high[3], counted counts,
-                     const void *of)
+bool jumps_in(const struct scene *scene, const double low[3], const double high[3], jump_counts *counts,
+              const void *of)
 {
     enum { LINES = 9 };
     const size_t blocks = scene->body.blocks;
@@ -97,89 +92,6 @@ static bool jumps_in(const struct scene *scene, const double low[3], const doubl
         }
     }
     return false;
-}
-
-/* --- Fields that Hooke's law makes of strains ----------------------------------------------------------- */
-
-static bool by_law(unsigned fields)
-{
-    return (fields & (1U << SELAS_STRESS | 1U << SELAS_PRESSURE | 1U << SELAS_ENERGY)) != 0;
-}
-
-/* Within a spacing of a jump. */
-static bool at_jump(const struct scene *scene, const double position[3])
-{
-    double place[3] = {0, 0, 0};
-    ground_from_deck(&scene->body, position, place);
-    const double spacing = spacing_at(scene, position);
-    for (int axis = 0; axis < scene->dimension; axis++)
-        if (jumps_on(scene, place, axis, place[axis] - spacing, place[axis] + spacing, NULL, NULL))
-            return true;
-    return false;
-}
-
-static bool profile_at_jump(const struct scene *scene, const struct profile *profile)
-{
-    for (size_t i = 0; i < profile->points; i++) {
-        double position[3];
-        profile_position(profile, i, position);
-        if (at_jump(scene, position)) return true;
-    }
-    return false;
-}
-
-/* A box of the lattice, as a snapshot's region is. */
-struct part {
-    double low[3], high[3];
-};
-
-static bool part_holds(const struct scene *scene, const void *of, const double place[3])
-{
-    const struct part *part = of;
-    double lattice[3] = {place[0], place[1], place[2]};
-    if (scene->body.topography != NULL) topography_to_lattice(scene->body.topography, lattice);
-    for (int axis = 0; axis < 3 && axis < scene->dimension; axis++)
-        if (lattice[axis] < part->low[axis] || lattice[axis] > part->high[axis]) return false;
-    return true;
-}
-
-/* Within a spacing of its places. */
-static bool snapshot_at_jump(const struct scene *scene, const struct snapshot *snapshot)
-{
-    struct part part = {{0, 0, 0}, {0, 0, 0}};
-    double one[3], other[3];
-    ground_from_deck(&scene->body, snapshot->region_low, one);
-    ground_from_deck(&scene->body, snapshot->region_high, other);
-    for (int axis = 0; axis < scene->dimension; axis++) {
-        const double low = fmin(one[axis], other[axis]) - scene->body.spacing,
-                     high = fmax(one[axis], other[axis]) + scene->body.spacing;
-        part.low[axis] = snapshot->whole ? scene->body.low[axis] : fmax(low, scene->body.low[axis]);
-        part.high[axis] = snapshot->whole ? scene->body.high[axis] : fmin(high, scene->body.high[axis]);
-    }
-    return jumps_in(scene, part.low, part.high, part_holds, &part);
-}
-
-/* Strains of the general operator and of particles are smooth where the rock jumps, so that moduli of the place make
- * of them stresses that are not there (doc/theory/general-ground.md). */
-void look_at_fields(struct adviser *adviser)
-{
-    const struct scene *scene = adviser->scene;
-    const bool consistent = strcmp(scene->method.variant, "consistent") == 0;
-    char what[NAME_SIZE + 16] = "";
-    if (consistent ? !by_general_operator(scene) : strcmp(scene->method.variant, "total-lagrangian") != 0)
-        return;
-    for (size_t i = 0; i < scene->profiles && what[0] == '\0'; i++)
-        if (by_law(scene->profile[i].fields) && profile_at_jump(scene, &scene->profile[i]))
-            snprintf(what, sizeof what, "profile '%s'", scene->profile[i].name);
-    for (size_t i = 0; i < scene->snapshots && what[0] == '\0'; i++)
-        if (by_law(scene->snapshot[i].fields) && snapshot_at_jump(scene, &scene->snapshot[i]))
-            snprintf(what, sizeof what, "&snapshot %zu", i + 1);
-    if (what[0] == '\0') return;
-    advise(adviser,
-           "%s has stress, pressure or energy within a spacing of where the rock jumps: they are those of a "
-           "strain that is smooth there, and wrong by up to the ratio of the moduli, whatever the spacing; "
-           "places two spacings off%s would do",
-           what, consistent && !ground_needs_general(scene) ? ", or method%operator = 'layered'," : "");
 }
 
 /* --- States at t = 0 ------------------------------------------------------------------------------------ */

@@ -1,8 +1,8 @@
-/* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), start.c (states at t = 0), waves.c
- * (what waves err by on their way), points.c (patches on points), ringing.c (damped bodies), jumps.c (fields and
- * states where the rock jumps), places.c (receivers near sources, surfaces before layers), layers.c (absorbing
- * layers), mirrors.c (symmetry planes), edges.c (moved faces that meet others), beyond.c (ground that goes on),
- * stacks.c (ground that goes to and fro). */
+/* Inside of the advice on scenes: advice.c (resolution, step, receivers, loads), start.c (states at t = 0),
+ * waves.c (what waves err by on their way), points.c (patches on points), ringing.c (damped bodies), jumps.c
+ * (states and weights where the rock jumps), fields.c (stresses there), places.c (receivers near sources, surfaces
+ * before layers), layers.c (absorbing layers), mirrors.c (symmetry planes), edges.c (moved faces that meet
+ * others), beyond.c (ground that goes on), stacks.c (ground that goes to and fro). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 
@@ -46,6 +46,15 @@ double typical_frequency(const struct scene *scene);
 bool cloud_would_run(const struct adviser *adviser, const struct model *model);
 /* The consistent method? */
 bool on_splines(const struct model *model);
+
+/* Which places count, of what; NULL: all do. */
+typedef bool jump_counts(const struct scene *scene, const void *of, const double place[3]);
+/* Does the rock jump on a line through `place`, in the ground, at a place that counts (jumps.c)? */
+bool jumps_on(const struct scene *scene, const double place[3], int axis, double from, double to,
+              jump_counts *counts, const void *of);
+/* The same of lines through a box of the lattice: evenly over it, and through each block. */
+bool jumps_in(const struct scene *scene, const double low[3], const double high[3], jump_counts *counts,
+              const void *of);
 
 /* What does nothing (nothing.c). */
 void look_at_nothing(struct adviser *adviser);

@@ -35,8 +35,10 @@ struct energy {
 /* Where and how to read a point value: sum over j of weight[j] * (value at point index[j]). */
 struct probe {
     double position[3]; /* deck coordinates */
+    unsigned fields;    /* what will be asked for, bit 1 << selas_field: set before the probe is made */
     size_t count;
-    size_t sites;     /* entries of index and weight behind these, which only the method knows */
+    size_t sites;     /* entries of index and weight behind these, which only the method knows, */
+    size_t strains;   /* so many of them for strains */
     size_t *index;    /* [count + sites] */
     double *weight;   /* [count + sites] */
     double *gradient; /* [3 * count]: weights of d/dx, d/dy, d/dz at gradient[3 * j + axis], axes of the frame

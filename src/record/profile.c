@@ -72,6 +72,7 @@ static selas_status create_one(struct recorder *recorder, const struct profile *
     for (size_t i = 0; i < profile->points && status == SELAS_OK; i++) {
         double position[3];
         profile_position(profile, i, position);
+        record->probe[i].fields = fields;
         status = recorder->model->core->probe(recorder->model, position, &record->probe[i], messages);
     }
     if (status == SELAS_OK) choose_steps(recorder, record);

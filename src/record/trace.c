@@ -44,6 +44,7 @@ selas_status trace_create(struct recorder *recorder, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu receivers", scene->receivers);
     for (size_t r = 0; r < scene->receivers; r++) {
         struct trace *trace = &recorder->trace[r];
+        trace->probe.fields = 1U << SELAS_DISPLACEMENT | 1U << SELAS_VELOCITY | 1U << SELAS_ACCELERATION;
         selas_status status = recorder->model->core->probe(recorder->model, scene->receiver[r].position,
                                                            &trace->probe, messages);
         if (status == SELAS_OK) status = trace_room(trace, expected, messages);

@@ -64,18 +64,33 @@ static void tilt(const struct consistent *c, const struct metric *metric, double
         gradient[axis] = slope[c->slot[axis]];
 }
 
-/* What a probe beside an interface adds to a component of a control field (general/kink.c): its sites are as many for
- * each component, places in the whole field. */
+/* Sum of `each` sites of a probe beside an interface (general/kink.c), places in the whole field. */
+static double read_sites(const struct probe *probe, size_t from, size_t each, const double *field)
+{
+    double sum = 0;
+    for (size_t site = from; site < from + each; site++)
+        sum += probe->weight[site] * field[probe->index[site]];
+    return sum;
+}
+
+/* What such a probe adds to a component of a control field. */
 static double kink_of(const struct consistent *c, const struct probe *probe, int component,
                       const double *field)
 {
-    const size_t each = probe != NULL ? probe->sites / (size_t)c->dimension : 0;
-    double sum = 0;
-    for (size_t k = 0; k < each; k++) {
-        const size_t site = probe->count + (size_t)component * each + k;
-        sum += probe->weight[site] * field[probe->index[site]];
-    }
-    return sum;
+    if (probe == NULL) return 0;
+    const size_t each = (probe->sites - probe->strains) / (size_t)c->dimension;
+    return read_sites(probe, probe->count + (size_t)component * each, each, field);
+}
+
+/* The strains that it reads, in the place of slopes. */
+static void strains_of(const struct consistent *c, const struct probe *probe, const double *u,
+                       double *gradient)
+{
+    const size_t each = probe->strains / (size_t)(c->dimension * (c->dimension + 1) / 2);
+    size_t from = probe->count + probe->sites - probe->strains;
+    for (int i = 0; i < c->dimension; i++)
+        for (int j = i; j < c->dimension; j++, from += each)
+            gradient[3 * i + j] = gradient[3 * j + i] = read_sites(probe, from, each, u);
 }
 
 /* A field in deck coordinates at one place; metric NULL: below a level surface; probe NULL: of a snapshot. */
@@ -99,6 +114,7 @@ static void field_at(const struct consistent *c, const struct place *place, cons
         values.displacement[component] += field == SELAS_DISPLACEMENT ? kink_of(c, probe, component, y) : 0;
         if (metric != NULL) tilt(c, metric, gradient);
     }
+    if (probe != NULL && probe->strains > 0) strains_of(c, probe, y, values.gradient);
     field_from_values(&c->model, material, &values, field, value);
 }
 
@@ -187,14 +203,15 @@ selas_status consistent_probe(struct model *model, const double position[3], str
     const size_t first[3] = {0, c->part.along[1].first, c->part.along[DEPTH].first};
     const int holder = part_holder(c, lowest(&at[1]), lowest(&at[DEPTH]));
     const size_t all = holder == ranks_me(c->part.ranks) ? count[0] * count[1] * count[2] : 0;
-    struct kinks kinks = {0};
-    if (c->general != NULL && !general_see_kink(c, place, &kinks))
+    struct readings beside = {0};
+    if (c->general != NULL && !general_see(c, place, probe->fields, &beside))
         return fail(messages, SELAS_NO_MEMORY, "no memory for a receiver");
-    const selas_status status = probe_allocate(probe, all + (all > 0 ? kinks.sites : 0), messages);
+    const selas_status status =
+        probe_allocate(probe, all + (all > 0 ? readings_sites(c, &beside) : 0), messages);
     probe->count = all;
     const bool good =
-        status == SELAS_OK && (all == 0 || (watch_place(c, place) && general_keep_kink(c, &kinks, probe)));
-    kinks_free(&kinks);
+        status == SELAS_OK && (all == 0 || (watch_place(c, place) && readings_keep(c, &beside, probe)));
+    readings_free(&beside);
     if (!good) return fail(messages, SELAS_NO_MEMORY, "no memory for a receiver");
     const struct metric metric = consistent_metric(c, place);
     memcpy(probe->position, position, sizeof probe->position);

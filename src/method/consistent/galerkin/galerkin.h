@@ -185,6 +185,9 @@ typedef bool force_beside(const struct consistent *c, const double centre[3], co
 /* Together: makes moment tensors and body forces again. */
 selas_status forces_in_ground(struct consistent *c, moment_beside *beside, force_beside *at_kink,
                               struct messages *messages);
+/* Together: those of one, NULL or not. To be freed. False: no memory. */
+bool forces_of_moment(struct consistent *c, moment_beside *beside, const struct load *load,
+                      struct sparse *sparse);
 void forces_free(struct consistent *c);
 size_t forces_bytes(const struct consistent *c); /* of the loads' and moving faces' vectors */
 /* Values (or slopes) of an axis's functions at x; halved where x lies on a symmetry plane and half is true.

@@ -262,6 +262,20 @@ static selas_status load_create(struct consistent *c, const struct load *load, s
     return fail(messages, SELAS_NO_MEMORY, "no memory for a load");
 }
 
+bool forces_of_moment(struct consistent *c, moment_beside *beside, const struct load *load,
+                      struct sparse *sparse)
+{
+    struct workspace w;
+    double centre[3], failed = !workspace_new(c, &w);
+    ranks_largest(c->part.ranks, 1, &failed);
+    w.beside = beside;
+    lattice_from_deck(&c->model.scene->body, load->centre, centre);
+    if (failed == 0) failed = !moment_tensor(c, load, centre, &w) || !sparse_take(c, &w.field, sparse);
+    ranks_largest(c->part.ranks, 1, &failed);
+    workspace_free(&w);
+    return failed == 0;
+}
+
 /* True if a control value on a face belongs to it alone: no fixed face and no earlier moving face holds it.
  */
 static bool owns(const struct consistent *c, int component, int face, const size_t at[3])

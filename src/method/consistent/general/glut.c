@@ -18,6 +18,8 @@ static bool along_face(const struct glut *g)
     return fabs(n[0] * m[0] + n[1] * m[1] + n[2] * m[2]) > 1 - 1e-6;
 }
 
+enum { SEEN = 5 }; /* spacings: what farther knots have part in a strain, some 1e-3 of it, is left out */
+
 /* (G22): first what the slope at the source is of the slopes at the knots. */
 static void find_share(struct glut *g)
 {
@@ -37,6 +39,9 @@ static void find_share(struct glut *g)
     }
     for (size_t k = last; k-- > 0;)
         share[k] -= upper[k] * share[k + 1];
+    const double at = (g->centre[g->across] - g->c->spline[g->across]->low) / g->spacing;
+    for (size_t k = 0; k <= last && g->seen; k++)
+        if (fabs((double)k - at) > SEEN) share[k] = 0;
 }
 
 /* Adds C of a point of a family. */
@@ -212,7 +217,7 @@ void glut_add_lines(struct glut *g, int set, double *const work[3], struct dense
         for (int direction = 0; direction < c->dimension; direction++) {
             double *line[3] = {work[0], work[1], work[2]};
             line[g->across] = g->line[set][component][direction];
-            for (int axis = 0; axis < c->dimension; axis++) {
+            for (int axis = 0; axis < c->dimension && axis < 3; axis++) {
                 const bool odd = axis == component;
                 if (axis == g->across) continue;
                 if (g->plain)
@@ -261,10 +266,10 @@ void glut_add_points(struct glut *g, double *const work[3])
         add_points(g, &g->c->general->family[f], (double(*)[STRESSES][STRESSES])behind);
 }
 
-bool general_add_glut(const struct consistent *c, const struct load *load, const double centre[3],
-                      double moment[3][3], struct dense *field)
+static bool add_glut(const struct consistent *c, const struct load *load, const double centre[3], bool seen,
+                     double moment[3][3], struct dense *field)
 {
-    struct glut g = {.c = c, .centre = {centre[0], centre[1], centre[2]}};
+    struct glut g = {.c = c, .centre = {centre[0], centre[1], centre[2]}, .seen = seen};
     double *work[3];
     if (general_is_part(c->model.scene) || !general_find_normal(&g)) return true;
     const struct rock rock = consistent_rock_at(c, centre);
@@ -287,7 +292,20 @@ bool general_add_glut(const struct consistent *c, const struct load *load, const
     for (int set = 0; set <= c->dimension; set++)
         if (set != 1 + g.across) glut_add_lines(&g, set, work, field);
     array_free(room);
-    const bool good = general_settle(&g, load, moment, field);
+    /* six strains a place would take seconds in space */
+    const bool good = (seen && c->dimension == 3) || general_settle(&g, load, moment, field);
     memcpy(moment, g.tangent, sizeof g.tangent);
     return good;
+}
+
+bool general_add_glut(const struct consistent *c, const struct load *load, const double centre[3],
+                      double moment[3][3], struct dense *field)
+{
+    return add_glut(c, load, centre, false, moment, field);
+}
+
+bool general_add_seen(const struct consistent *c, const struct load *load, const double centre[3],
+                      double moment[3][3], struct dense *field)
+{
+    return add_glut(c, load, centre, true, moment, field);
 }

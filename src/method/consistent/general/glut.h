@@ -25,6 +25,7 @@ struct glut {
     double lag, press, slack;    /* (G23), E_M and E_r of (G30): lengths, over stresses but for the last */
     double stay[ALONGS];         /* (G24): lengths times stresses */
     bool plain, half;      /* a displacement is read: by the splines' values; halved on symmetry planes */
+    bool seen;             /* a strain is read: ranks have few planes beside it */
     double *share;         /* [knots] of the axis across (G22) */
     double *line[4][3][3]; /* [count] by component and direction; 1 + axis: to be differentiated along it */
     double *row[2];        /* [largest count] work */
@@ -32,6 +33,7 @@ struct glut {
 
 /* Together. What lies beside an interface acts by (G21) to (G25); `moment` keeps the part of strains along it. */
 moment_beside general_add_glut;
+moment_beside general_add_seen; /* what reads M : eps there */
 /* glut.c: lines, all 0, and work. To be freed; NULL: no memory. */
 double *glut_room(struct glut *glut, double *work[3]);
 void glut_clear(struct glut *glut); /* lines := 0 */

@@ -45,7 +45,6 @@ static bool jumps_near(const struct consistent *c, const double centre[3])
 static bool begin(struct glut *g, double *work[3], double **room)
 {
     *room = NULL;
-    if (general_is_part(g->c->model.scene) || !jumps_near(g->c, g->centre)) return true;
     if (!general_find_normal(g) || !g->surface) return true;
     *room = glut_room(g, work);
     double failed = *room == NULL;
@@ -87,13 +86,14 @@ bool general_add_kink(const struct consistent *c, const double centre[3], const 
 {
     struct glut glut = glut_at(c, centre, half);
     double *work[3], *room;
+    if (general_is_part(c->model.scene) || !jumps_near(c, centre)) return true;
     if (!begin(&glut, work, &room)) return false;
     if (room != NULL) add_kink(&glut, work, direction, field);
     array_free(room);
     return true;
 }
 
-bool general_see_kink(const struct consistent *c, const double place[3], struct kinks *kinks)
+static bool see_kinks(const struct consistent *c, const double place[3], struct readings *readings)
 {
     struct glut glut = glut_at(c, place, false);
     double *work[3], *room;
@@ -103,40 +103,107 @@ bool general_see_kink(const struct consistent *c, const double place[3], struct 
     double failed = field.value == NULL;
     ranks_largest(c->part.ranks, 1, &failed);
     for (int component = 0; component < c->dimension && failed == 0; component++) {
-        struct sparse *kink = &kinks->of[component];
         double direction[3] = {0};
         direction[c->slot[component]] = 1;
         glut_clear(&glut);
         add_kink(&glut, work, direction, &field);
-        failed = !sparse_take(c, &field, kink);
+        failed = !sparse_take(c, &field, &readings->kink[component]);
         ranks_largest(c->part.ranks, 1, &failed);
-        const size_t sites = failed != 0 ? 0 : (size_t)c->dimension * kink->start[kink->planes];
-        kinks->sites = sites > kinks->sites ? sites : kinks->sites;
     }
     array_free(field.value);
     array_free(room);
     return failed == 0;
 }
 
-bool general_keep_kink(struct consistent *c, const struct kinks *kinks, struct probe *probe)
+/* Moment tensors whose work is that of a strain, whole on symmetry planes too. */
+static bool see_strains(struct consistent *c, const double place[3], struct readings *readings)
 {
-    probe->sites = kinks->sites;
-    for (int component = 0; component < c->dimension && probe->sites > 0; component++) {
-        const struct sparse *kink = &kinks->of[component];
-        const size_t first = probe->count + (size_t)component * probe->sites / (size_t)c->dimension;
-        for (size_t p = 0; p < kink->planes; p++)
-            for (size_t e = kink->start[p]; e < kink->start[p + 1]; e++) {
-                const size_t seen = kink->plane[p] % c->n[DEPTH] * c->plane + kink->index[e];
-                probe->index[first + e] = kink->plane[p] / c->n[DEPTH] * c->volume + seen;
-                probe->weight[first + e] = kink->value[e];
-                if (c->dimension == 3 && !watch_places(c, 1, &seen)) return false;
-            }
+    static const int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    const struct body *body = &c->model.scene->body;
+    double whole = 1;
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const struct spline *spline = c->spline[axis];
+        const double small = 1e-9 * (spline->high - spline->low);
+        if ((spline->mirror[0] && fabs(place[axis] - spline->low) < small) ||
+            (spline->mirror[1] && fabs(place[axis] - spline->high) < small))
+            whole *= 2;
     }
+    struct sparse *strain = readings->strain;
+    for (int i = 0; i < c->dimension; i++)
+        for (int j = i; j < c->dimension; j++) {
+            struct load load = {.kind = LOAD_MOMENT_TENSOR, .shape = LOAD_POINT, .amplitude = 1};
+            lattice_to_deck(body, place, load.centre);
+            for (int k = 0; k < 3; k++)
+                for (int l = 0; l < 3; l++) {
+                    const double *one = body->frame[k], *other = body->frame[l];
+                    const double turned = body->rotated ? (one[i] * other[j] + one[j] * other[i]) / 2
+                                                        : ((k == i && l == j) + (k == j && l == i)) / 2.;
+                    load.moment[voigt[k][l]] = whole * turned;
+                }
+            if (!forces_of_moment(c, general_add_seen, &load, strain++)) return false;
+        }
     return true;
 }
 
-void kinks_free(struct kinks *kinks)
+bool general_see(struct consistent *c, const double place[3], unsigned fields, struct readings *readings)
 {
-    for (int component = 0; component < 3; component++)
-        sparse_free(&kinks->of[component]);
+    static const unsigned moved = 1U << SELAS_DISPLACEMENT | 1U << SELAS_VELOCITY | 1U << SELAS_ACCELERATION,
+                          strained = 1U << SELAS_STRAIN | 1U << SELAS_STRESS | 1U << SELAS_PRESSURE |
+                                     1U << SELAS_ENERGY;
+    if (general_is_part(c->model.scene) || !jumps_near(c, place)) return true;
+    if ((fields & moved) != 0 && !see_kinks(c, place, readings)) return false;
+    return (fields & strained) == 0 || see_strains(c, place, readings);
+}
+
+/* The most that one of them has. */
+static size_t sites_of(const struct sparse *of, size_t count)
+{
+    size_t most = 0;
+    for (size_t n = 0; n < count; n++) {
+        const size_t has = of[n].start != NULL ? of[n].start[of[n].planes] : 0;
+        most = has > most ? has : most;
+    }
+    return count * most;
+}
+
+static size_t strains(const struct consistent *c)
+{
+    return (size_t)(c->dimension * (c->dimension + 1) / 2);
+}
+
+size_t readings_sites(const struct consistent *c, const struct readings *readings)
+{
+    return sites_of(readings->kink, (size_t)c->dimension) + sites_of(readings->strain, strains(c));
+}
+
+static bool keep(struct consistent *c, const struct sparse *of, size_t count, size_t first,
+                 struct probe *probe)
+{
+    const size_t each = sites_of(of, count) / count;
+    for (size_t n = 0; n < count && each > 0; n++, first += each)
+        for (size_t p = 0; p < of[n].planes; p++)
+            for (size_t e = of[n].start[p]; e < of[n].start[p + 1]; e++) {
+                const size_t seen = of[n].plane[p] % c->n[DEPTH] * c->plane + of[n].index[e];
+                probe->index[first + e] = of[n].plane[p] / c->n[DEPTH] * c->volume + seen;
+                probe->weight[first + e] = of[n].value[e];
+                if (c->dimension == 3 && !watch_places(c, 1, &seen)) return false;
+            }
+    return true;
+}
+
+bool readings_keep(struct consistent *c, const struct readings *readings, struct probe *probe)
+{
+    const size_t kinks = sites_of(readings->kink, (size_t)c->dimension);
+    probe->sites = readings_sites(c, readings);
+    probe->strains = probe->sites - kinks;
+    return keep(c, readings->kink, (size_t)c->dimension, probe->count, probe) &&
+           keep(c, readings->strain, strains(c), probe->count + kinks, probe);
+}
+
+void readings_free(struct readings *readings)
+{
+    for (int n = 0; n < 3; n++)
+        sparse_free(&readings->kink[n]);
+    for (int n = 0; n < 6; n++)
+        sparse_free(&readings->strain[n]);
 }

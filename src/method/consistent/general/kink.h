@@ -6,15 +6,17 @@
 
 /* Adds what the lattice's displacement lacks beside an interface (G30). Together. */
 force_beside general_add_kink;
-/* The same for each component, vectors that read control values of all; empty where nothing is lacking. */
-struct kinks {
-    struct sparse of[3];
-    size_t sites; /* as many for each component, with weights of 0 where there are fewer */
+/* What receivers read of control values of all components beside an interface: what the lattice's displacements lack
+ * (G30), in each component, and strains (G21 to G29), ij = xx, xy, ..., yy, ...; empty where the rock does not jump. */
+struct readings {
+    struct sparse kink[3], strain[6];
 };
-/* At a place of the lattice. Together. False: no memory. */
-bool general_see_kink(const struct consistent *c, const double place[3], struct kinks *kinks);
-/* Makes them sites of a probe that has room, and keeps right what they read. False: no memory. */
-bool general_keep_kink(struct consistent *c, const struct kinks *kinks, struct probe *probe);
-void kinks_free(struct kinks *kinks);
+/* At a place of the lattice, for fields (bit 1 << selas_field) of it. Together. False: no memory. */
+bool general_see(struct consistent *c, const double place[3], unsigned fields, struct readings *readings);
+size_t readings_sites(const struct consistent *c, const struct readings *readings);
+/* Makes them sites of a probe that has room, and keeps right what they read: as many for each kink, and for each
+ * strain, with weights of 0 where there are fewer. False: no memory. */
+bool readings_keep(struct consistent *c, const struct readings *readings, struct probe *probe);
+void readings_free(struct readings *readings);
 
 #endif

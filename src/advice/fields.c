@@ -1,0 +1,152 @@
+/* Stresses, pressures and energies where the rock jumps. */
+#include "advice/parts.h"
+
+#include "scene/ground.h"
+#include "scene/topography.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool by_law(unsigned fields)
+{
+    return (fields & (1U << SELAS_STRESS | 1U << SELAS_PRESSURE | 1U << SELAS_ENERGY)) != 0;
+}
+
+/* Within a spacing of a jump. */
+static bool at_jump(const struct scene *scene, const double position[3])
+{
+    double place[3] = {0, 0, 0};
+    ground_from_deck(&scene->body, position, place);
+    const double spacing = spacing_at(scene, position);
+    for (int axis = 0; axis < scene->dimension; axis++)
+        if (jumps_on(scene, place, axis, place[axis] - spacing, place[axis] + spacing, NULL, NULL))
+            return true;
+    return false;
+}
+
+static bool differ(const struct rock one, const struct rock other)
+{
+    static const double slight = .05;
+    return fabs(one.mu - other.mu) > slight * other.mu ||
+           fabs(one.lambda + 2 * one.mu - other.lambda - 2 * other.mu) >
+               slight * (other.lambda + 2 * other.mu);
+}
+
+enum { WIDE = 3, PARTS = 2, FAR = WIDE * PARTS, PLACES = 2 * FAR + 1 }; /* spacings; places in one */
+
+/* Is the rock about a place that of the line along `normal` through it, but for a twentieth? */
+static bool varies_along(const struct scene *scene, const double centre[3], double spacing,
+                         const double normal[3])
+{
+    static const double most = .05;
+    const int beside = scene->dimension == 2 ? 0 : FAR;
+    size_t other = 0, all = 0;
+    for (int k = -beside; k <= beside; k++)
+        for (int j = -FAR; j <= FAR; j++)
+            for (int i = -FAR; i <= FAR; i++, all++) {
+                const double step[3] = {i * spacing / PARTS, j * spacing / PARTS, k * spacing / PARTS};
+                const double along = step[0] * normal[0] + step[1] * normal[1] + step[2] * normal[2];
+                double place[3], line[3];
+                for (int axis = 0; axis < 3; axis++) {
+                    place[axis] = centre[axis] + step[axis];
+                    line[axis] = centre[axis] + along * normal[axis];
+                }
+                other += differ(ground_at(scene, place), ground_at(scene, line));
+            }
+    return (double)other <= most * (double)all;
+}
+
+/* Does a symmetry plane across the axis lie within twelve spacings? */
+static bool mirror_near(const struct scene *scene, const double centre[3], double spacing, int axis)
+{
+    const double near = 12 * spacing;
+    return (boundary_mirrors(&scene->boundary[2 * axis]) && centre[axis] - scene->body.low[axis] < near) ||
+           (boundary_mirrors(&scene->boundary[2 * axis + 1]) && scene->body.high[axis] - centre[axis] < near);
+}
+
+/* Are strains read as the moment tensors of (G25) act there: across one surface about the place, in space one along
+ * the lattice (general/kink.c)? */
+static bool read_across(const struct scene *scene, const double position[3])
+{
+    enum { DIRECTIONS = 90 };
+    const double spacing = spacing_at(scene, position);
+    double centre[3] = {0, 0, 0};
+    ground_from_deck(&scene->body, position, centre);
+    const bool plane = scene->dimension == 2;
+    if (!plane && scene->body.topography != NULL) return false;
+    for (int n = 0; n < (plane ? DIRECTIONS : 3); n++) {
+        const double angle = n * M_PI / DIRECTIONS;
+        const double normal[3] = {plane ? cos(angle) : n == 0, plane ? sin(angle) : n == 1, !plane && n == 2};
+        const int axis = plane ? fabs(normal[1]) >= fabs(normal[0]) : n;
+        if (varies_along(scene, centre, spacing, normal) && !mirror_near(scene, centre, spacing, axis))
+            return true;
+    }
+    return false;
+}
+
+static bool profile_at_jump(const struct scene *scene, const struct profile *profile, bool read)
+{
+    for (size_t i = 0; i < profile->points; i++) {
+        double position[3];
+        profile_position(profile, i, position);
+        if (at_jump(scene, position) && !(read && read_across(scene, position))) return true;
+    }
+    return false;
+}
+
+/* A box of the lattice, as a snapshot's region is. */
+struct part {
+    double low[3], high[3];
+};
+
+static bool part_holds(const struct scene *scene, const void *of, const double place[3])
+{
+    const struct part *part = of;
+    double lattice[3] = {place[0], place[1], place[2]};
+    if (scene->body.topography != NULL) topography_to_lattice(scene->body.topography, lattice);
+    for (int axis = 0; axis < 3 && axis < scene->dimension; axis++)
+        if (lattice[axis] < part->low[axis] || lattice[axis] > part->high[axis]) return false;
+    return true;
+}
+
+/* Within a spacing of its places. */
+static bool snapshot_at_jump(const struct scene *scene, const struct snapshot *snapshot)
+{
+    struct part part = {{0, 0, 0}, {0, 0, 0}};
+    double one[3], other[3];
+    ground_from_deck(&scene->body, snapshot->region_low, one);
+    ground_from_deck(&scene->body, snapshot->region_high, other);
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double low = fmin(one[axis], other[axis]) - scene->body.spacing,
+                     high = fmax(one[axis], other[axis]) + scene->body.spacing;
+        part.low[axis] = snapshot->whole ? scene->body.low[axis] : fmax(low, scene->body.low[axis]);
+        part.high[axis] = snapshot->whole ? scene->body.high[axis] : fmin(high, scene->body.high[axis]);
+    }
+    return jumps_in(scene, part.low, part.high, part_holds, &part);
+}
+
+/* Strains of the general operator and of particles are smooth where the rock jumps, so that moduli of the place make
+ * of them stresses that are not there (doc/theory/general-ground.md). Profiles in ground without damping read them
+ * across a surface. */
+void look_at_fields(struct adviser *adviser)
+{
+    const struct scene *scene = adviser->scene;
+    const bool consistent = strcmp(scene->method.variant, "consistent") == 0;
+    const bool read = consistent && !ground_is_damped(scene);
+    char what[NAME_SIZE + 16] = "";
+    if (consistent ? !by_general_operator(scene) : strcmp(scene->method.variant, "total-lagrangian") != 0)
+        return;
+    for (size_t i = 0; i < scene->profiles && what[0] == '\0'; i++)
+        if (by_law(scene->profile[i].fields) && profile_at_jump(scene, &scene->profile[i], read))
+            snprintf(what, sizeof what, "profile '%s'", scene->profile[i].name);
+    for (size_t i = 0; i < scene->snapshots && what[0] == '\0'; i++)
+        if (by_law(scene->snapshot[i].fields) && snapshot_at_jump(scene, &scene->snapshot[i]))
+            snprintf(what, sizeof what, "&snapshot %zu", i + 1);
+    if (what[0] == '\0') return;
+    advise(adviser,
+           "%s has stress, pressure or energy within a spacing of where the rock jumps: they are those of a "
+           "strain that is smooth there, and wrong by up to the ratio of the moduli, whatever the spacing; "
+           "places two spacings off%s would do",
+           what, consistent && !ground_needs_general(scene) ? ", or method%operator = 'layered'," : "");
+}
