@@ -155,7 +155,7 @@ static void look_at_layers_there(struct adviser *adviser)
     const struct body *body = &scene->body;
     const int rows = scene->dimension == 3 ? LOOKS : 0;
     for (size_t k = 0; k < body->layers && body_is_box(body); k++) {
-        bool there = false;
+        bool there = body->chosen && layer_is_below(body, &body->layer[k]); /* the plan tells */
         for (int i = 0; i < (LOOKS + 1) * (rows + 1) && !there; i++) {
             const int at[2] = {i % (LOOKS + 1), i / (LOOKS + 1)};
             double place[3] = {0};

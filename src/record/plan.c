@@ -132,6 +132,11 @@ static void say_grading(const struct teller *teller, const struct scene *scene)
 
 static void say_interfaces(const struct teller *teller, const struct body *body)
 {
+    size_t below = 0;
+    for (size_t i = 0; i < body->layers; i++)
+        below += layer_is_below(body, &body->layer[i]);
+    if (body->chosen && below > 0)
+        say(teller, "layers below the box", "%zu, from which no wave comes back before end_time", below);
     for (size_t i = 0; i < body->layers; i++) {
         const struct height_map *map = body->layer[i].map;
         if (map == NULL) continue;

@@ -313,7 +313,7 @@ static void read_layer(struct builder *builder, const struct deck_group *group, 
     const int last = scene->dimension - 1;
     const double depth = scene->body.high[last] - scene->body.low[last];
     const bool level = layer->slope[0] == 0 && layer->slope[1] == 0 && layer->map == NULL;
-    if (builder->body_known && level && layer->top >= depth)
+    if (builder->body_known && level && layer->top >= depth && !scene->body.chosen)
         complain(builder, group, "top", "the layer begins at depth %g, below the body; expected less than %g",
                  layer->top, depth);
 }

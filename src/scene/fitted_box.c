@@ -33,13 +33,22 @@ struct held { /* what the box has to hold */
     double centre[3];
     bool plane, whole; /* all moves along the depth alone; the whole body is looked at */
     size_t acts, seen;
+    double deepest; /* as far down as that waves of layers come back in time, and the lattice is level */
 };
 
-static double deepest_layer(const struct builder *builder)
+static double deepest_layer(const struct builder *builder, const struct held *held,
+                            const struct span large[3])
 {
-    double depth = 0.0;
-    for (size_t k = 0; k < deck_count(builder->deck, "layer"); k++)
-        depth = fmax(depth, deck_real(deck_get(builder->deck, "layer", k), "top", 0));
+    const int down = builder->scene->dimension - 1;
+    double depth = 0.0, away = 0.0;
+    for (int c = 0; c < down; c++)
+        away = hypot(away, fmax(-large[c].low, large[c].high));
+    for (size_t k = 0; k < deck_count(builder->deck, "layer"); k++) {
+        const struct deck_group *group = deck_get(builder->deck, "layer", k);
+        const double top = deck_real(group, "top", 0), dip = deck_real(group, "dip", 0) * M_PI / 180;
+        const bool late = held->acts > 0 && held->seen > 0 && top - tan(dip) * away > large[down].high;
+        if (held->whole || !late) depth = fmax(depth, top);
+    }
     return depth;
 }
 
@@ -51,12 +60,6 @@ static bool tilted(const struct builder *builder)
 }
 
 /* --- What has a box ------------------------------------------------------------------------------------- */
-
-/* Below it the lattice is level. */
-static double level_depth(const struct scene *sketch)
-{
-    return sketch->body.topography != NULL ? sketch->body.topography->depth : 0;
-}
 
 static bool refuse_box(struct builder *builder, const char *group, size_t index, const char *name,
                        const char *why)
@@ -174,7 +177,7 @@ static void put(const struct scene *scene, const struct held *held, const struct
 }
 
 /* So large that nothing comes back: (X - load) + (X - seen) >= c_p (until - from) for all pairs. */
-static void fit_large(const struct builder *builder, const struct held *held, struct scene *sketch)
+static void fit_large(const struct builder *builder, struct held *held, struct scene *sketch)
 {
     const double dx = sketch->body.spacing, speed = scene_first(sketch);
     const int down = sketch->dimension - 1;
@@ -182,7 +185,6 @@ static void fit_large(const struct builder *builder, const struct held *held, st
     struct extent seen, acts;
     for (int c = 0; c < sketch->dimension; c++)
         want[c] = (struct span){held->all[c].low - dx, held->all[c].high + dx};
-    want[down].high = fmax(want[down].high, fmax(deepest_layer(builder), level_depth(sketch)) + MARGIN * dx);
     for (size_t k = 0; scene_extent(sketch, k, &acts); k++)
         for (size_t i = 0; acts.role == EXTENT_ACTS && scene_extent(sketch, i, &seen); i++)
             for (int c = 0; seen.role == EXTENT_SEEN && c < sketch->dimension; c++) {
@@ -192,6 +194,9 @@ static void fit_large(const struct builder *builder, const struct held *held, st
                 const double below = isinf(acts.low[c]) ? 0 : acts.low[c];
                 widen(&want[c], 0.5 * (below + seen.low[c] - reach), 0.5 * (above + seen.high[c] + reach));
             }
+    held->deepest = deepest_layer(builder, held, want);
+    if (sketch->body.topography != NULL) held->deepest = fmax(held->deepest, sketch->body.topography->depth);
+    want[down].high = fmax(want[down].high, held->deepest + MARGIN * dx);
     put(sketch, held, want, &sketch->body);
 }
 
@@ -249,8 +254,7 @@ static double fit_small(const struct builder *builder, const struct held *held, 
             want[c] = (struct span){held->all[c].low - margin, held->all[c].high + margin};
             widen(&want[c], held->dipole[c].low - clear, held->dipole[c].high + clear);
         }
-        want[down].high = fmax(fmax(want[down].high, LEAST_DEPTH * factor * dx),
-                               fmax(deepest_layer(builder), level_depth(sketch)) + MARGIN * dx);
+        want[down].high = fmax(fmax(want[down].high, LEAST_DEPTH * factor * dx), held->deepest + MARGIN * dx);
         put(sketch, held, want, &sketch->body);
         const double here = scene_work(sketch);
         const bool now = level_there(sketch, large) && !tilted(builder);
@@ -280,7 +284,7 @@ static void keep(const struct body *found, const struct body *large, const struc
 
 static bool choose(struct builder *builder, const struct deck_group *group, struct scene *sketch)
 {
-    const struct held held = find_held(sketch);
+    struct held held = find_held(sketch);
     struct body *body = &builder->scene->body;
     const char *why = layers_refusal(sketch);
     if (held.acts + held.seen == 0) {

@@ -84,6 +84,15 @@ bool layer_covers(const struct layer *layer)
     return layer->top == 0 && !layer_leans(layer);
 }
 
+bool layer_is_below(const struct body *body, const struct layer *layer)
+{
+    const int last = body->high[2] > body->low[2] ? 2 : 1;
+    double least = layer->top;
+    for (int axis = 0; axis < last; axis++)
+        least += fmin(layer->slope[axis] * body->low[axis], layer->slope[axis] * body->high[axis]);
+    return layer->map == NULL && least >= body->high[last] - body->low[last];
+}
+
 /* Index of the layer at a place, or the number of layers: the body's own material. */
 static size_t layer_at(const struct body *body, const double place[3], double depth)
 {

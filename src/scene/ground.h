@@ -59,6 +59,8 @@ bool layer_leans(const struct layer *layer);
 bool layer_covers(const struct layer *layer);
 /* Depth of a layer's upper face above or below a place. */
 double layer_top_at(const struct layer *layer, const double place[3]);
+/* Does a layer that is level or tilted begin below all of the body? */
+bool layer_is_below(const struct body *body, const struct layer *layer);
 /* Can the rock be another one further along this axis? */
 bool ground_varies(const struct scene *scene, int axis);
 
