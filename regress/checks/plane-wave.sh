@@ -54,3 +54,19 @@ below "S pulse askew in a box" "$(largest scene%dimension=3 scene%end_time=0.5 b
     body%spacing=0.1 initial%wave=s initial%direction=2,3,6 initial%polarisation=3,-2,0 \
     initial%centre=1.86,1.79,1.57 initial%width=0.5 'receiver(1)%position=2,2,2' \
     'receiver(2)%position=2.1,1.9,2')" 4e-4
+
+# A pulse goes on in the rock that it begins in, be that a block's: none of it goes back.
+cat >"$work/block.nml" <<'D'
+&scene dimension = 2, end_time = 2 /
+&material name = 'soil', density = 1, s_speed = 0.5, p_speed = 1 /
+&material name = 'rock', density = 1.2, s_speed = 1, p_speed = 1.8 /
+&body material = 'soil', low = 0, 0, high = 1, 10, spacing = 0.1 /
+&block material = 'rock', centre = 0.5, 5.5, size = 3, 9 /
+&boundary face = 'y+', kind = 'transmitting', layer = 'lysmer' /
+&boundary face = 'x-', 'x+', kind = 'displacement', direction = 0, 1, slip = .true., amplitude = 0, history = 'step' /
+&initial kind = 'plane-wave', wave = 's', direction = 0, -1, polarisation = 1, 0, centre = 0, 6, width = 0.5, amplitude = 1 /
+&receiver name = 'behind', position = 0.5, 8.5 /
+&output plots = F /
+D
+"$build/selas" -q "$work/block.nml" output%directory="$out" >"$out.log" 2>&1 || cat "$out.log" >&2
+below "an S pulse in a block sends nothing back" "$(awk '!/^#/ { if ($2^2 > most) most = $2^2 } END { print sqrt(most) }' "$out/behind.dat")" 1e-3

@@ -14,9 +14,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Power of the spacing with which errors fall in ground of one rock and in all other general ground (measured on
- * scenes drawn by chance: it tells more than one scene's own trials do), and the least of those trials' own that is
- * let stand; error at so many points per wavelength of the slowest wave for a first guess; the first trial's spacing
+/* Power of the spacing with which errors fall in ground of one rock and, at most, in all other general ground (measured
+ * on scenes drawn by chance: of one rock it tells more than one scene's own trials do; beside jumps of the rock errors may
+ * fall as the square, and trials tell), and the least of those trials' own that is let stand; error at so many points per wavelength of the slowest wave for a first guess; the first trial's spacing
  * over that, and of one trial over the next; how far below the last trial's the choice lies as a rule, and at most
  * where the next one would be too much (no farther than the trial itself where its own power is below SURE_ORDER);
  * the most of a trial's error from which one may tell. */
@@ -54,11 +54,12 @@ struct trials {
     size_t count;              /* how many there were; the last three are kept */
     double spacing[TRIALS];    /* from the coarsest to the last, which stands last */
     double apart[TRIALS - 1];  /* how far neighbours lie apart */
-    double order, error;       /* with which errors are taken to fall; of the last one */
-    double box;                /* what the box makes of the histories; INFINITY: not tried */
-    double work;               /* of all that were run */
-    size_t mechanisms;         /* of damped ground; 0: there is no damping ... */
-    double off;                /* ... and how far off constant Q */
+    double most, order,
+        error;   /* power with which errors fall at most, and are taken to fall; error of the last one */
+    double box;  /* what the box makes of the histories; INFINITY: not tried */
+    double work; /* of all that were run */
+    size_t mechanisms; /* of damped ground; 0: there is no damping ... */
+    double off;        /* ... and how far off constant Q */
 };
 
 /* The scene of a choice; NULL after saying why there is none. */
@@ -140,6 +141,8 @@ static selas_status add_trial(const struct scene *scene, const struct trial *tri
     if (status != SELAS_OK || ++trials->count < 2) return status;
     trials->apart[0] = trials->apart[1];
     trials->apart[1] = difference(last - receivers, last, receivers);
+    if (trials->count >= TRIALS && trials->most < EVEN_ORDER)
+        trials->order = fmin(trials->most, fmax(own_order(trials), SURE_ORDER));
     trials->error = trials->apart[1] / (pow(trials->spacing[1] / spacing, trials->order) - 1);
     return status;
 }
@@ -377,7 +380,8 @@ static selas_status choose(const struct scene *scene, double accuracy, const str
                            struct scene_choice *choice, struct messages *messages)
 {
     struct trials trials = {.kept = array_new(TRIALS * scene->receivers, sizeof *trials.kept),
-                            .order = order_of(scene)};
+                            .most = order_of(scene)};
+    trials.order = trials.most;
     if (trials.kept == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for trials");
     const selas_status status = choose_by(scene, accuracy, trial, choice, &trials, messages);
     free_all(trials.kept, TRIALS * scene->receivers);

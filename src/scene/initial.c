@@ -1,6 +1,8 @@
 /* The state at t = 0: formulas in initial.h and doc/theory/initial-states.md (Eqs 1-3). */
 #include "scene/initial.h"
 
+#include "scene/ground.h"
+
 #include <math.h>
 
 double plane_wave_shape(const struct initial *initial, double s, int derivative)
@@ -13,10 +15,37 @@ double plane_wave_shape(const struct initial *initial, double s, int derivative)
     return derivative == 0 ? value : -r / initial->width * value;
 }
 
+/* Of P and S waves in the rock at a place of the deck. */
+static void speeds_at(const struct scene *scene, const double position[3], double speed[2])
+{
+    const struct body *body = &scene->body;
+    double place[3];
+    speed[0] = scene->material[body->material].p_speed;
+    speed[1] = scene->material[body->material].s_speed;
+    ground_from_deck(body, position, place);
+    if (body->layers > 0 || body->blocks > 0 || body->model != NULL) ground_speeds_at(scene, place, speed);
+}
+
+void initial_speeds(const struct scene *scene, double speed[2])
+{
+    const struct initial *initial = &scene->initial;
+    const struct body *body = &scene->body;
+    double place[3], away = 0;
+    for (int c = 0; c < 3; c++)
+        place[c] = (body->low[c] + body->high[c]) / 2;
+    body_to_deck(body, place, place);
+    for (int c = 0; c < 3; c++)
+        away += initial->direction[c] * (initial->centre[c] - place[c]);
+    for (int c = 0; c < 3; c++)
+        place[c] += away * initial->direction[c];
+    speeds_at(scene, initial->kind == INITIAL_PLANE_WAVE ? place : initial->centre, speed);
+}
+
 double plane_wave_speed(const struct scene *scene)
 {
-    const struct material *material = &scene->material[scene->body.material];
-    return scene->initial.shear ? material->s_speed : material->p_speed;
+    double speed[2];
+    initial_speeds(scene, speed);
+    return speed[scene->initial.shear];
 }
 
 static void plane_wave(const struct scene *scene, const double position[3], double displacement[3],
@@ -27,7 +56,9 @@ static void plane_wave(const struct scene *scene, const double position[3], doub
     for (int c = 0; c < 3; c++)
         s += initial->direction[c] * (position[c] - initial->centre[c]);
     const double value = plane_wave_shape(initial, s, 0);
-    const double rate = -plane_wave_speed(scene) * plane_wave_shape(initial, s, 1);
+    double speed[2];
+    speeds_at(scene, position, speed);
+    const double rate = -speed[initial->shear] * plane_wave_shape(initial, s, 1);
     for (int c = 0; c < 3; c++) {
         displacement[c] = value * initial->polarisation[c];
         velocity[c] = rate * initial->polarisation[c];

@@ -4,7 +4,7 @@
  *   uniform-velocity  u = 0, v = velocity
  *   plane-wave        u = A p F(s), v = -A c p F'(s) with s = n.(x - centre): travels along n unchanged.
  *                     train: F(s) = sin(2 pi s / wavelength); pulse: F(s) = exp(-s^2 / (2 width^2));
- *                     c and p: p_speed and n (P), s_speed and a unit vector across n (S)
+ *                     c and p: p_speed of the place and n (P), s_speed and a unit vector across n (S)
  *   gaussian          u = A d exp(-|x - centre|^2 / (2 width^2)), v = 0
  *   beam-mode         u = 0, v = A c0 e_y f(x), f the first bending mode of Euler and Bernoulli's beam with the ends
  *                     of the scene; x and y in the body's frame, x from its x- face */
@@ -19,7 +19,9 @@ void initial_at(const struct scene *scene, const double position[3], double disp
 
 /* A F(s) of a plane wave (derivative 0) or A F'(s) (derivative 1). */
 double plane_wave_shape(const struct initial *initial, double s, int derivative);
-/* Speed c of the plane wave in the body's material. */
+/* Speeds of P and S waves in the rock at the middle of a plane wave's front, else at the state's centre. */
+void initial_speeds(const struct scene *scene, double speed[2]);
+/* That of the plane wave, else of P waves. */
 double plane_wave_speed(const struct scene *scene);
 
 /* How a beam is held at its faces x- and x+. */
