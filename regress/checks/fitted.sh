@@ -153,6 +153,31 @@ if [ "$2" = night ]; then
     ok "what a dip of 20 degrees sends back from beyond the box: $echo" awk -v e="$echo" 'BEGIN { exit !(e > .01 && e < .03) }'
 fi
 
+# A layer so deep that no wave comes back from it in time, level or tilted, does not draw the box down, and changes nothing.
+cat >"$out/deep.nml" <<D
+&scene dimension = 2, end_time = 4 /
+&material name = 'rock', density = 1, p_speed = 1.8, s_speed = 1 /
+&material name = 'hard', density = 1.2, p_speed = 2.3, s_speed = 1.3 /
+&body material = 'rock', shape = 'half-space', spacing = 0.1 /
+&method operator = 'general' /
+&layer material = 'rock', top = 0 /
+&layer material = 'hard', top = 40 /
+&load kind = 'body-force', shape = 'point', centre = 0, 0.8, direction = 1, 0.5, history = 'gaussian', width = 0.4, delay = 2 /
+&receiver name = 'r', position = 1, 0 /
+&output plots = F, history_step = 0.02 /
+D
+for dip in 0 20; do
+    plan deep deep "layer(2)%dip=$dip"
+    ok "a layer with a dip of $dip that is too deep to be seen: told, and the box is small" \
+        sh -c "grep -q '^layers below the box: 1, from which no wave' '$out/deep.plan' && awk '/^points:/ { exit !(\$2 < 6000) }' '$out/deep.plan'"
+done
+plan seen deep 'layer(2)%top=5'
+ok "one that is seen is held" sh -c "! grep -q '^layers below the box' '$out/seen.plan'"
+run late deep 'layer(2)%top=5.4'
+run held deep 'layer(2)%top=5.4' body%low=-7,0 body%high=7,8 "boundary%face='x-','x+','y+'" boundary%kind=transmitting boundary%layer=lysmer \
+    "reference%kind='file'" "reference%file='$out/late'"
+ok "its waves come too late: $(largest held)" below "$(largest held)" 1e-5
+
 # Layers beside the exact mass and the modified equation; a scheme without layers gets the larger box.
 plan exact f scene%end_time=15 method%mass=exact
 ok "method%mass=exact: layers" grep -q '^box chosen: absorbing layers' "$out/exact.plan"

@@ -933,7 +933,8 @@ cat >lies.nml <<'END'
 &receiver name = 'r', position = 1, 0 /
 END
 across="initial state lies across an interface"
-told "a state that reaches a block" "$across" check lies.nml initial%centre=-0.8,0
+told "a state that reaches a block" "$across.*may err by about 0.026 there" check lies.nml initial%centre=-0.8,0
+told "one in its side" "$across.*may err by about 0.31 there" check lies.nml initial%centre=0.6,0
 untold "one that does not" check lies.nml
 untold "one that reaches a block of nearly the same rock" check lies.nml initial%centre=-0.8,0 'material(2)%density=1' \
     'material(2)%p_speed=1.81' 'material(2)%s_speed=1'
