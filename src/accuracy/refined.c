@@ -14,13 +14,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Power of the spacing with which errors fall in ground of one rock and, at most, in all other general ground (measured
- * on scenes drawn by chance: of one rock it tells more than one scene's own trials do, beside jumps of the rock trials that
- * come closer with a smaller power, SURE_ORDER at least), and the least of those trials' own that is let stand; error at
- * so many points per wavelength of the slowest wave for a first guess; the first trial's spacing over that, and of one
- * trial over the next; how far below the last trial's the choice lies as a rule, and at most where the next one would be
- * too much (no farther than the trial itself where its own power is below SURE_ORDER); the most of a trial's error from
- * which one may tell. */
+/* Power of the spacing with which errors fall in ground of one rock and, at most, in all other general ground
+ * (measured on scenes drawn by chance: of one rock it tells more than its trials, beside jumps of the rock trials
+ * that come closer with a smaller power, SURE_ORDER at least), and the least of the trials' own that is let stand;
+ * error at so many points per wavelength of the slowest wave for a first guess; the first trial's spacing over
+ * that, and of one trial over the next; how far below the last trial's the choice lies as a rule, and at most
+ * where the next one would be too much (no farther than the trial where its own power is below SURE_ORDER); the
+ * most of a trial's error from which one may tell. */
 static const double EVEN_ORDER = 4.8, ORDER = 3.2, LEAST_ORDER = 1.5, GUESS = .012, GUESS_POINTS = 6,
                     COARSE = 2.83, FINER = 1.41421356, SURE_ORDER = 2, NEAR = 1.5, FAR = 2.5, CARRIED = .5;
 enum { MOST_TRIALS = 16, TRIALS = 3 };

@@ -103,14 +103,14 @@ struct crossing {
     double *error;
 };
 
-/* The largest strain of the state at a distance from its middle in widths, over that of the state at one width and less. */
+/* The largest strain of the state so many widths from its middle and more, in parts of the largest. */
 static double strain_at(const struct initial *initial, double widths)
 {
     return initial->wavelength > 0 || widths < 1 ? 1 : widths * exp((1 - widths * widths) / 2);
 }
 
-/* Where moduli jump by dM a state of strain e begins with a traction of dM e that jumps, which sends a front of dM e / (Z +
- * Z') either way, beside velocities of c e: fronts of all wavelengths, of which the part (h/w)^(1/2) is wrong. */
+/* Where moduli jump by dM a state of strain e begins with a traction of dM e that jumps, which sends a front of
+ * dM e / (Z + Z') either way, beside velocities of c e: of fronts of all wavelengths (h/w)^(1/2) is wrong. */
 static bool crosses(const struct scene *scene, const void *of, const double place[3])
 {
     static const double front = 1.8; /* by measurement (doc/theory/initial-states.md, Eq 3b) */
