@@ -221,7 +221,7 @@ void look_at_tilted(struct adviser *adviser)
         adviser,
         "tilted layers send waves back from beyond the box, which are lost in its absorbing layers: "
         "velocities "
-        "differed by up to .08 at dips of 5 to 30 degrees; body%%low and body%%high farther from source and "
+        "differed by up to .11 at dips of 5 to 35 degrees; body%%low and body%%high farther from source and "
         "receivers would be right (selas check --echo measures it)");
 }
 
