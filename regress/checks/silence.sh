@@ -239,6 +239,29 @@ told "a moment tensor beside a level interface" "by a twentieth where shear modu
 untold "of rocks less unlike" check level.nml
 untold "farther off" check level.nml 'material(2)%density=.5' load%centre=0,.95
 
+# --- Soft layers two spacings thick, r = 5.5, at 7.3 points a wavelength ---
+cat >soft.nml <<'END'
+&scene dimension = 2, end_time = 6.54 /
+&method operator = 'general' /
+&material name = 'rock', density = 1, p_speed = 2.93027, s_speed = 1 /
+&material name = 'soil', density = .5, p_speed = 1.3318, s_speed = .602 /
+&layer material = 'rock', top = 0 /
+&layer material = 'soil', top = .632 /
+&layer material = 'rock', top = .832 /
+&body material = 'rock', shape = 'half-space', spacing = 0.1 /
+&load kind = 'moment-tensor', centre = 0, 0.732, moment = -0.82, 0.37, 0, 0.81, 0, 0, history = 'gaussian', width = 0.471, delay = 2.356 /
+&receiver name = 'r1', position = 0.981, 0.0 /
+END
+told "a moment tensor in a soft layer" "rock 5.52 times as soft .* err by up to about 0.09.*spacing = 0.0.* or method%operator = 'layered'" check soft.nml
+told "a receiver in it, too" "times as soft .* err by up to about 0.1[01]" check soft.nml receiver%position=.981,.732
+sed "s/'moment-tensor'/'body-force', shape = 'point'/; s/moment = [^h]*/direction = 1, 0, /" soft.nml >force.nml
+untold "a force" check force.nml
+untold "of longer waves" check soft.nml load%width=.8 load%delay=4
+untold "a layer five spacings thick" check soft.nml 'layer(3)%top=1.132' load%centre=0,.882
+untold "by the operator for layers" check soft.nml method%operator=layered
+told "a steep one" "times as soft .* err by up to about 0.1.*spacing = 0.0.* would" check soft.nml 'layer(2)%dip=30' 'layer(3)%dip=30' \
+    'layer(2)%strike=-90' 'layer(3)%strike=-90' 'layer(3)%top=.863'
+
 # --- Layers a spacing thick that go to and fro: densities 3 : 1 err by .06, by .02 at half the spacing, with sources as slow ---
 {
     cat <<'END'

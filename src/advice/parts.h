@@ -2,7 +2,7 @@
  * waves.c (what waves err by on their way), points.c (patches on points), ringing.c (damped bodies), jumps.c
  * (states and weights where the rock jumps), fields.c (stresses there), places.c (receivers near sources, surfaces
  * before layers), layers.c (absorbing layers), mirrors.c (symmetry planes), edges.c (moved faces that meet
- * others), beyond.c (ground that goes on), stacks.c (ground that goes to and fro). */
+ * others), beyond.c (ground that goes on), stacks.c (ground that goes to and fro), soft.c (thin soft layers). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 
@@ -102,10 +102,11 @@ void look_at_passed(struct adviser *adviser, size_t load);
 void look_at_interfaces(struct adviser *adviser);
 /* Stresses that are asked for where the rock jumps (jumps.c). */
 void look_at_fields(struct adviser *adviser);
-/* Rock that jumps in general ground (jumps.c, stacks.c). */
+/* Rock that jumps in general ground (jumps.c, stacks.c, soft.c). */
 void look_at_weights(struct adviser *adviser);
 void look_at_walls(struct adviser *adviser);
 void look_at_stacks(struct adviser *adviser);
+void look_at_soft_layers(struct adviser *adviser);
 void look_at_damped_cells(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */
 void look_at_columns(struct adviser *adviser);

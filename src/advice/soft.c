@@ -1,0 +1,135 @@
+/* Layers softer than the rock on both sides and few spacings thick, by the general operator. */
+#include "advice/parts.h"
+
+#include "base/memory.h"
+#include "scene/ground.h"
+#include "scene/resolution.h"
+
+#include <math.h>
+
+enum { A_SPACING = 8, MOST = 4000 };               /* samples in a spacing and of a line */
+static const double thickest = 4, source_near = 3; /* spacings; from the layer */
+
+struct line {
+    double mu[MOST], speed[MOST];
+};
+
+/* Soft layers on lines along depth, by ln(r) / p^2: r times the shear modulus is there on both sides, p points a
+ * wavelength has the layer. The worst of all, and the largest within some spacings of the line's place. */
+struct soft {
+    double size, ratio, points, place[3], beside, within;
+};
+
+/* The largest of so many values from `from` on. */
+static double largest(const double *value, int from, int n, int count)
+{
+    double most = 0;
+    for (int i = from < 0 ? 0 : from; i < from + n && i < count; i++)
+        most = fmax(most, value[i]);
+    return most;
+}
+
+static int sample(const struct scene *scene, const double place[3], double low, double length,
+                  struct line *line)
+{
+    const int count = (int)fmin(MOST, ceil(A_SPACING * length / scene->body.spacing));
+    double there[3] = {place[0], place[1], place[2]};
+    for (int i = 0; i < count; i++) {
+        there[scene->dimension - 1] = low + (i + .5) * length / count;
+        const struct rock rock = ground_at(scene, there);
+        line->mu[i] = rock.mu;
+        line->speed[i] = sqrt(rock.mu / rock.density);
+    }
+    return count;
+}
+
+/* The middle of a layer up to `thickest` thick has stiffer rock within half of that above and below. */
+static void look_through(const struct scene *scene, const double place[3], struct line *line,
+                         struct soft *soft)
+{
+    static const double slight = 2; /* softer ones err as the lattice does */
+    const int axis = scene->dimension - 1;
+    const double low = ground_low(&scene->body, axis), length = scene->body.high[axis] - low;
+    const int count = sample(scene, place, low, length, line);
+    const double step = length / count / scene->body.spacing; /* spacings */
+    const int reach = (int)(thickest / 2 / step);
+    const double points = points_per_wavelength(scene) / slowest_speed(scene);
+    soft->beside = soft->within = 0;
+    for (int i = 0; i < count; i++) {
+        const double stiff =
+            fmin(largest(line->mu, i - reach, reach, count), largest(line->mu, i + 1, reach, count));
+        if (!(line->mu[i] > 0) || !(stiff > slight * line->mu[i])) continue;
+        const double depth = low + (i + .5) * length / count, p = points * line->speed[i],
+                     size = log(stiff / line->mu[i]) / (p * p),
+                     away = fabs(depth - place[axis]) / scene->body.spacing - thickest / 2;
+        if (away < source_near) soft->beside = fmax(soft->beside, size);
+        if (away < 0) soft->within = fmax(soft->within, size);
+        if (size <= soft->size) continue;
+        *soft = (struct soft){
+            size, stiff / line->mu[i], p, {place[0], place[1], place[2]}, soft->beside, soft->within};
+        soft->place[axis] = depth;
+    }
+}
+
+/* Does the layer slope by more than 15 degrees? */
+static bool leans(const struct scene *scene, const struct soft *soft, struct line *line)
+{
+    static const double steep = .27, aside = 4; /* spacings */
+    const int depth = scene->dimension - 1;
+    bool found = false;
+    for (int way = 0; way < 2 * depth && !found; way++) {
+        struct soft there = {.size = 0};
+        double place[3] = {soft->place[0], soft->place[1], soft->place[2]};
+        place[way / 2] += (way % 2 == 0 ? -1 : 1) * aside * scene->body.spacing;
+        look_through(scene, place, line, &there);
+        found = there.size > 0 &&
+                fabs(there.place[depth] - soft->place[depth]) > steep * aside * scene->body.spacing;
+    }
+    return found;
+}
+
+/* What a load in a soft layer or beside it sends errs by, in parts of ln(r) / p^2. */
+static double law_of(const struct load *load)
+{
+    static const double of_forces = .95, of_moments = 3;
+    if (load->kind == LOAD_MOMENT_TENSOR) return of_moments;
+    return load->shape == LOAD_POINT ? of_forces : 0;
+}
+
+/* Lines through loads and receivers. Measured (regress/studies/blocks, `soft`; doc/theory/general-ground.md, section 7):
+ * what comes by such a layer, what is sent beside it, and what is seen in it. */
+void look_at_soft_layers(struct adviser *adviser)
+{
+    enum { LINES = 50 };
+    static const double seen = .05, of_waves = .65, in_layer = .4, seen_aslant = .08, aslant = 4.3;
+    const struct scene *scene = adviser->scene;
+    const size_t places = scene->loads + scene->receivers, stride = 1 + places / LINES;
+    struct soft soft = {.size = 0};
+    double sent = 0, received = 0;
+    if (scene->reference.kind[0] != '\0' || !by_general_operator(scene) ||
+        !(points_per_wavelength(scene) > 0))
+        return;
+    struct line *line = array_new(1, sizeof *line);
+    for (size_t n = 0; n < places && line != NULL; n += stride) {
+        const bool load = n < scene->loads;
+        double place[3] = {0, 0, 0};
+        ground_from_deck(&scene->body,
+                         load ? scene->load[n].centre : scene->receiver[n - scene->loads].position, place);
+        look_through(scene, place, line, &soft);
+        if (load)
+            sent = fmax(sent, law_of(&scene->load[n]) * soft.beside);
+        else
+            received = fmax(received, in_layer * soft.within);
+    }
+    const bool steep = line != NULL && soft.size > 0 && leans(scene, &soft, line);
+    const double error = steep ? aslant * soft.size : fmax(sent, of_waves * soft.size) + received;
+    array_free(line);
+    if (!(error > (steep ? seen_aslant : seen))) return;
+    advise(adviser,
+           "about %c = %.3g rock %.3g times as soft as that above and below it is less than %.0f spacings "
+           "thick: at %.3g points per wavelength in it velocities err by up to about %.2g; body%%spacing = "
+           "%.3g%s would be right",
+           "xyz"[scene->dimension - 1], soft.place[scene->dimension - 1], soft.ratio, thickest, soft.points, fmin(1, error),
+           scene->body.spacing * sqrt(seen / error),
+           ground_needs_general(scene) ? "" : " or method%operator = 'layered'");
+}
