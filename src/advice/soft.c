@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-enum { A_SPACING = 8, MOST = 4000 };               /* samples in a spacing and of a line */
-static const double thickest = 4, source_near = 3; /* spacings; from the layer */
+enum { A_SPACING = 8, MOST = 4000 };                 /* samples in a spacing and of a line */
+static const double thickest = 4.5, source_near = 3; /* spacings; from the layer */
 
 struct line {
     double mu[MOST], speed[MOST];
@@ -65,8 +65,8 @@ static void look_through(const struct scene *scene, const double place[3], struc
         if (away < source_near) soft->beside = fmax(soft->beside, size);
         if (away < 0) soft->within = fmax(soft->within, size);
         if (size <= soft->size) continue;
-        *soft = (struct soft){
-            size, stiff / line->mu[i], p, {place[0], place[1], place[2]}, soft->beside, soft->within};
+        *soft = (struct soft){size,         stiff / line->mu[i], p, {place[0], place[1], place[2]},
+                              soft->beside, soft->within};
         soft->place[axis] = depth;
     }
 }
@@ -91,13 +91,13 @@ static bool leans(const struct scene *scene, const struct soft *soft, struct lin
 /* What a load in a soft layer or beside it sends errs by, in parts of ln(r) / p^2. */
 static double law_of(const struct load *load)
 {
-    static const double of_forces = .95, of_moments = 3;
+    static const double of_forces = 1.1, of_moments = 3;
     if (load->kind == LOAD_MOMENT_TENSOR) return of_moments;
     return load->shape == LOAD_POINT ? of_forces : 0;
 }
 
-/* Lines through loads and receivers. Measured (regress/studies/blocks, `soft`; doc/theory/general-ground.md, section 7):
- * what comes by such a layer, what is sent beside it, and what is seen in it. */
+/* Lines through loads and receivers. Measured (regress/studies/blocks, `soft`): what comes by such a layer, what is sent
+ * beside it, and what is seen in it (doc/theory/general-ground.md, section 7). */
 void look_at_soft_layers(struct adviser *adviser)
 {
     enum { LINES = 50 };
@@ -126,10 +126,10 @@ void look_at_soft_layers(struct adviser *adviser)
     array_free(line);
     if (!(error > (steep ? seen_aslant : seen))) return;
     advise(adviser,
-           "about %c = %.3g rock %.3g times as soft as that above and below it is less than %.0f spacings "
+           "about %c = %.3g rock %.3g times as soft as that above and below it is less than %.2g spacings "
            "thick: at %.3g points per wavelength in it velocities err by up to about %.2g; body%%spacing = "
            "%.3g%s would be right",
-           "xyz"[scene->dimension - 1], soft.place[scene->dimension - 1], soft.ratio, thickest, soft.points, fmin(1, error),
-           scene->body.spacing * sqrt(seen / error),
+           "xyz"[scene->dimension - 1], soft.place[scene->dimension - 1], soft.ratio, thickest, soft.points,
+           fmin(1, error), scene->body.spacing * sqrt(seen / error),
            ground_needs_general(scene) ? "" : " or method%operator = 'layered'");
 }
