@@ -96,8 +96,8 @@ static double law_of(const struct load *load)
     return load->shape == LOAD_POINT ? of_forces : 0;
 }
 
-/* Lines through loads and receivers. Measured (regress/studies/blocks, `soft`): what comes by such a layer, what is sent
- * beside it, and what is seen in it (doc/theory/general-ground.md, section 7). */
+/* Lines through loads and receivers. Measured (regress/studies/blocks, `soft`): what comes by such a layer, what is
+ * sent beside it, and what is seen in it (doc/theory/general-ground.md, section 7). */
 void look_at_soft_layers(struct adviser *adviser)
 {
     enum { LINES = 50 };
