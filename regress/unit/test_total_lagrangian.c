@@ -332,6 +332,42 @@ static void tractions_balance_uniform_stress(void **state)
         }
 }
 
+/* Across a body of few points, too, a traction has its force and its moment about the middle. */
+static void tractions_have_their_moment(void **state)
+{
+    (void)state;
+    for (int n = 3; n <= 8; n++)
+        for (int kind = 0; kind < 6; kind++) {
+            struct box_scene box;
+            make_box(&box, 2, 1, .05);
+            box.scene.body.high[1] = n * .05;
+            box.scene.body.jitter = kind > 3 ? .2 : 0;
+            struct load load = {
+                .shape = kind % 2 == 0 ? LOAD_FACE : LOAD_SQUARE, .face = FACE_Y_HIGH, .amplitude = 1};
+            load.centre[0] = .5;
+            load.centre[1] = n * .05;
+            load.size[0] = .6;
+            load.direction[0] = 1;
+            box.scene.loads = 1;
+            box.scene.load = &load;
+            struct tl_options choice = options(kind / 2 == 1 ? 1 : 2, LAW_LINEAR, .1);
+            struct model *model = make(&box.scene, &choice);
+            const struct tl_load *made = ((struct tl_model *)model)->load;
+            double force = 0, moment = 0;
+            for (size_t k = 0; k < made->count; k++) {
+                force += made->force[2 * k];
+                moment += made->force[2 * k] * (model->position[3 * made->point[k] + 1] - n * .025);
+            }
+            const double expected = load.shape == LOAD_FACE ? 1 : .6;
+            assert_near(force, expected, 1e-13);
+            assert_near(moment / (expected * n * .025), 1,
+                        kind > 3        ? .1
+                        : kind % 2 == 1 ? .03
+                                        : 1e-12); /* beside the ends rows differ */
+            model_free(&model);
+        }
+}
+
 /* Patches carry their force whatever part of the points they cut; point forces too, halved on a symmetry
  * plane. */
 static void patches_carry_their_force(void **state)
@@ -441,6 +477,7 @@ int main(void)
         cmocka_unit_test(turns_make_no_force),
         cmocka_unit_test(quarters_are_wholes),
         cmocka_unit_test(tractions_balance_uniform_stress),
+        cmocka_unit_test(tractions_have_their_moment),
         cmocka_unit_test(patches_carry_their_force),
         cmocka_unit_test(motions_are_followed),
         cmocka_unit_test(what_cannot_be_is_refused),

@@ -1,43 +1,11 @@
-/* Loads and dampers of total-Lagrangian SPH.
- *
- * A uniform stress t x n in the body pulls at the points with f_j = -sum_i V_i (t x n) G_ij + ..., the
- * discrete form of the integral of t phi_j over the surface; so these forces, taken from the points near the
- * loaded face and weighed with the part of their footprint that the patch covers, are the consistent load:
- * under it a uniform stress is in equilibrium to the last layer. Forces at a place and moment tensors work on
- * the moving-least-squares value and gradient there: f_i = w_i(x) P, f_i = M grad w_i(x), which keeps force
- * and moment. */
+/* Loads and dampers of total-Lagrangian SPH. Forces at a place and moment tensors work on the moving-least-squares value
+ * and gradient there: f_i = w_i(x) P, f_i = M grad w_i(x), which keeps force and moment. */
 #include "method/total_lagrangian/total_lagrangian.h"
 
 #include "base/memory.h"
-#include "points/disc.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Length that [a - half, a + half] and [b - wide, b + wide] share. */
-static double overlap(double a, double half, double b, double wide)
-{
-    return fmax(0, fmin(a + half, b + wide) - fmax(a - half, b - wide));
-}
-
-/* Part of the rectangle about `place` (edges `width`, across `axis`) that a patch covers. */
-static double covered(const struct load *load, int axis, const double place[3], const double width[3],
-                      const double centre[3], int dimension)
-{
-    if (load->shape == LOAD_FACE || dimension == 1) return 1;
-    double part = 1, low[2] = {0}, high[2] = {0}, moment[3];
-    for (int c = 0, edge = 0; c < dimension && edge < 2; c++) {
-        if (c == axis) continue;
-        const double size = load->size[load->shape == LOAD_DISC ? 0 : edge];
-        low[edge] = place[c] - centre[c] - width[c] / 2;
-        high[edge] = place[c] - centre[c] + width[c] / 2;
-        part *= overlap(place[c], 0.5 * width[c], centre[c], 0.5 * size) / width[c];
-        edge++;
-    }
-    if (load->shape == LOAD_SQUARE || dimension == 2 || part <= 0) return part;
-    disc_and_rectangle(low, high, load->size[0] / 2, moment);
-    return moment[0] / ((high[0] - low[0]) * (high[1] - low[1]));
-}
 
 struct gather {
     double *force; /* [dimension * points] */
@@ -92,121 +60,6 @@ static void moment_in_body(const struct scene *scene, const struct load *load, d
         body_direction_from_deck(&scene->body, half + 3 * a, moment + 3 * a);
 }
 
-/* A load's patch about a place of the surface. */
-struct patch {
-    const struct load *load;
-    const double *centre, *direction;
-    double *force; /* [dimension * points] */
-};
-
-/* Area of the patch on the surface. */
-static void add_area(struct tl_model *tl, const void *context, double *area)
-{
-    const struct patch *patch = context;
-    const struct load *load = patch->load;
-    for (size_t e = 0; e < tl->cloud->elements; e++) {
-        const struct face_element *element = &tl->cloud->element[e];
-        if (element->face == (int)load->face && tl_owns(tl, element->position))
-            *area += element->area * covered(load, face_axis(load->face), element->position, element->width,
-                                             patch->centre, tl->cloud->dimension);
-    }
-}
-
-/* Fails if no element of the surface lies on a face. */
-static selas_status need_surface(const struct tl_model *tl, enum face face, struct messages *messages)
-{
-    for (size_t e = 0; e < tl->cloud->elements; e++)
-        if (tl->cloud->element[e].face == (int)face) return SELAS_OK;
-    if (tl->part.shared) return SELAS_OK; /* of a box, on another rank */
-    if (tl->cloud->elements > 0)
-        return fail(messages, SELAS_BAD_SCENE,
-                    "no point has its normal and area on face '%s' of the body's box low .. high",
-                    face_name(face));
-    return fail(
-        messages, SELAS_BAD_SCENE,
-        "face '%s' is not known: the points come without areas and fill %.3g of the box low .. high (within "
-        ".02 of 1 its faces would be theirs); give normal and area with the points at the surface",
-        face_name(face), cloud_filling(tl->cloud, &tl->model.scene->body));
-}
-
-/* Forces of the uniform stress -direction x normal, into tl->force. */
-static void uniform_stress(struct tl_model *tl, const double direction[3], enum face face)
-{
-    const size_t d = (size_t)tl->cloud->dimension;
-    const size_t axis = (size_t)face_axis(face);
-    memset(tl->A, 0, d * tl->plane * sizeof *tl->A);
-    if (tl->extra != NULL) memset(tl->extra, 0, d * tl->cloud->points * sizeof *tl->extra);
-    for (size_t i = 0; i < tl->cloud->points; i++)
-        for (size_t a = 0; a < d; a++)
-            tl->A[(size_t)axis * tl->plane + d * i + a] =
-                -tl->cloud->volume[i] * direction[a] * face_sign(face);
-    tl_divergence(tl);
-}
-
-/* The hole's rim is nearer than a face `away`: its forces of the uniform stress are not that face's. */
-static bool of_hole(const struct body *body, const double x[3], double away)
-{
-    return body->shape == BODY_PLATE_WITH_HOLE &&
-           hypot(x[0] - body->hole_centre[0], x[1] - body->hole_centre[1]) - body->hole_radius < away;
-}
-
-/* Forces of the uniform stress on the points under the patch, and their sum. */
-static void add_covered(struct tl_model *tl, const void *context, double *sum)
-{
-    const struct patch *patch = context;
-    const struct body *body = &tl->model.scene->body;
-    const size_t d = (size_t)tl->cloud->dimension;
-    const int axis = face_axis(patch->load->face);
-    const double plane = face_plane(body, patch->load->face);
-    const double reach = fmin(2 * tl_search_radius(tl), 0.5 * (body->high[axis] - body->low[axis]));
-    const struct tl_range range = tl_summed(tl);
-    for (size_t i = range.from; i < range.end; i++) {
-        const double *x = tl->cloud->position + 3 * i;
-        if (fabs(x[axis] - plane) > reach || of_hole(body, x, fabs(x[axis] - plane))) continue;
-        const double wide = pow(tl->cloud->volume[i], 1.0 / tl->cloud->dimension);
-        const double width[3] = {wide, wide, wide};
-        const double part = covered(patch->load, axis, x, width, patch->centre, tl->cloud->dimension);
-        for (size_t a = 0; a < d; a++) {
-            patch->force[d * i + a] = part * tl->force[d * i + a];
-            *sum += patch->force[d * i + a] * patch->direction[a];
-        }
-    }
-}
-
-/* What a face leaves of the work of a traction of 1 on its own motion: the part of directions that are not held. */
-static double free_part(const struct scene *scene, enum face face, const double direction[3])
-{
-    const struct boundary *boundary = &scene->boundary[face];
-    const bool slides = boundary_slides(boundary) || (boundary_moves(boundary) && boundary->slip);
-    double part = 0;
-    if (!slides && boundary_meaning(boundary)->holds != HOLDS_NOTHING) return 0;
-    for (int axis = 0; axis < scene->dimension; axis++)
-        if (!slides || axis != face_axis(face)) part += direction[axis] * direction[axis];
-    return part;
-}
-
-static selas_status traction_on_box(struct tl_model *tl, const struct load *load, const double centre[3],
-                                    const double direction[3], struct gather *gather)
-{
-    const struct patch patch = {load, centre, direction, gather->force};
-    const selas_status known = need_surface(tl, load->face, gather->messages);
-    if (known != SELAS_OK) return known;
-    uniform_stress(tl, direction, load->face);
-    const double sum = tl_sum_in_order(tl, add_covered, &patch);
-    /* what patches that cut points and scattered points lose or win */
-    const double part = free_part(tl->model.scene, load->face, direction);
-    const double area = part * tl_sum_in_order(tl, add_area, &patch);
-    if (part < 1e-20) return SELAS_OK;
-    if (!(sum > 0.5 * area) || !(sum < 2 * area))
-        return fail(gather->messages, SELAS_BAD_SCENE,
-                    "a load's patch, or the body behind it, is too small for the spacing: make the spacing "
-                    "smaller, or a "
-                    "small patch a point load");
-    for (size_t k = 0; k < (size_t)tl->cloud->dimension * tl->cloud->points; k++)
-        gather->force[k] *= load->amplitude * area / sum;
-    return SELAS_OK;
-}
-
 /* Tractions on the hole or on surfaces from a file, element by element. */
 static selas_status traction_on_elements(struct tl_model *tl, const struct load *load,
                                          const double direction[3], struct gather *gather)
@@ -250,7 +103,7 @@ static selas_status collect_load(struct tl_model *tl, const struct load *load, s
     if (tl->options.form != NULL && load->face != FACE_HOLE)
         return tl->options.form->traction(tl, load, centre, direction, gather->force, gather->messages);
     if (load->face != FACE_HOLE && (scene->body.shape != BODY_POINTS || load->shape == LOAD_FACE))
-        return traction_on_box(tl, load, centre, direction, gather);
+        return tl_traction_on_box(tl, load, centre, direction, gather->force, gather->messages);
     if (load->shape != LOAD_FACE)
         return fail(gather->messages, SELAS_UNSUPPORTED, "a load on face '%s' needs shape = 'face'",
                     face_name(load->face));
@@ -363,7 +216,7 @@ selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages)
     const size_t d = (size_t)scene->dimension;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         if (!boundary_absorbs(&scene->boundary[face])) continue;
-        const selas_status known = need_surface(tl, (enum face)face, messages);
+        const selas_status known = tl_need_surface(tl, (enum face)face, messages);
         if (known != SELAS_OK) return known;
     }
     for (size_t e = 0; e < tl->cloud->elements; e++) {

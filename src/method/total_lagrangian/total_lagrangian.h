@@ -249,6 +249,11 @@ size_t tl_lattice_probe(const struct tl_model *tl, const double place[3], bool g
                         double *weight, double *gradient);
 /* A place of the body's frame on a symmetry plane or roller across the axis. */
 bool tl_on_mirror(const struct tl_model *tl, const double place[3], int axis);
+/* tractions.c. Fails if no element of the surface lies on a face. */
+selas_status tl_need_surface(const struct tl_model *tl, enum face face, struct messages *messages);
+/* Adds the forces of a load on a face of the box. */
+selas_status tl_traction_on_box(struct tl_model *tl, const struct load *load, const double centre[3],
+                                const double direction[3], double *forces, struct messages *messages);
 /* loads.c, probes.c */
 enum { TL_PROBE_ROOM = 512 };
 selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
