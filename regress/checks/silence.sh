@@ -1039,6 +1039,26 @@ END
 told "a damped strip held at one end" "rings at frequencies below the source's" check strip.nml
 untold "held all round" check strip.nml boundary%face=all
 told "on rollers all round" "rings at frequencies below the source's" check strip.nml boundary%face=all boundary%kind=roller
+# --- Slender bodies on particles ---
+cat >thin.nml <<'END'
+&scene dimension = 2, plane = 'stress', end_time = 80 /
+&method name = 'sph', variant = 'total-lagrangian' /
+&material name = 'm', density = 1, young = 2.5, poisson = .25 /
+&body material = 'm', low = 0, 0, high = 3, .5, spacing = .1 /
+&boundary face = 'x-', kind = 'fixed' /
+&load kind = 'body-force', direction = 0, 1, amplitude = 1e-4, history = 'gaussian', width = 6, delay = 24 /
+&receiver name = 'a', position = 3, .2 /
+&output plots = F /
+END
+told "a thin cantilever that bends" "bending of a body only 5 points thick along y, .* err by up to about 0.[0-9]* by end_time; [0-9]* points, or method%name = 'smoothed-point', variant = 'consistent'," check thin.nml
+told "by linear gradients" "bending of a body only 5 points thick.* gradient = 'quadratic'" check thin.nml method%gradient=linear
+told "on updated-Lagrangian particles" "bending of a body only 5 points thick" check thin.nml method%variant=updated-lagrangian
+told "a face moved across" "bending of a body only 5 points thick" check thin.nml load%amplitude=0 boundary%kind=displacement boundary%direction=0,1 boundary%amplitude=1e-4 boundary%history=gaussian boundary%width=6 boundary%delay=24
+untold "pulled along" check thin.nml load%direction=1,0
+untold "free and carried along" check thin.nml boundary%kind=free
+untold "on a roller beneath" check thin.nml 'boundary(2)%face=y-' 'boundary(2)%kind=roller'
+untold "a slow load that it follows" check thin.nml load%width=60 load%delay=240 scene%end_time=480
+untold "on splines" check thin.nml method%name=smoothed-point method%variant=consistent
 # --- Long ways on splines ---
 cat >way.nml <<'END'
 &scene dimension = 1, end_time = 40 /

@@ -2,7 +2,8 @@
  * waves.c (what waves err by on their way), points.c (patches on points), ringing.c (damped bodies), jumps.c
  * (states and weights where the rock jumps), fields.c (stresses there), places.c (receivers near sources, surfaces
  * before layers), layers.c (absorbing layers), mirrors.c (symmetry planes), edges.c (moved faces that meet
- * others), beyond.c (ground that goes on), stacks.c (ground that goes to and fro), soft.c (thin soft layers). */
+ * others), beyond.c (ground that goes on), stacks.c (ground that goes to and fro), soft.c (thin soft layers), bending.c
+ * (slender bodies of particles). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 
@@ -20,6 +21,9 @@ void advise(struct adviser *adviser, const char *format, ...) __attribute__((for
 
 /* Waves of fewer points are not waves but noise, whatever the method. */
 #define FEWEST_POINTS 4.0
+
+/* What waves on points err by is told of from here on. */
+#define WAVES_SEEN .1
 
 /* At so many widths a pulse or Gaussian is 2e-3 of its peak. */
 #define STATE_REACH 3.5
@@ -44,6 +48,8 @@ double typical_number(const struct scene *scene, double order);
 double typical_frequency(const struct scene *scene);
 /* Would the cloud method take the scene, and is not that of the model? */
 bool cloud_would_run(const struct adviser *adviser, const struct model *model);
+/* When loads and moved faces begin to send waves. */
+double sending_begins(const struct scene *scene);
 /* The consistent method? */
 bool on_splines(const struct model *model);
 
@@ -74,6 +80,8 @@ void look_at_tables(struct adviser *adviser, const struct stepper *stepper);
 void look_at_time_error(struct adviser *adviser, const struct stepper *stepper);
 /* Waves that a method's points carry badly (waves.c). */
 void look_at_method(struct adviser *adviser, const struct model *model);
+/* Slender bodies that bend too softly, where that is more than is told already. */
+void look_at_bending(struct adviser *adviser, const struct model *model, double told);
 /* Loads' waves that splines carry too far. */
 void look_at_long_way(struct adviser *adviser, const struct model *model);
 /* A patch on points that do not see it as it is. */

@@ -158,8 +158,7 @@ static double half_begins(const struct history *history, double end)
     return history->start + first * each;
 }
 
-/* When loads and moved faces begin to send waves. */
-static double sending_begins(const struct scene *scene)
+double sending_begins(const struct scene *scene)
 {
     double first = scene->end_time;
     for (size_t k = 0; k < scene->loads; k++)
@@ -228,7 +227,6 @@ static double error_of_sent(const struct scene *scene, const struct wave_law *wa
 
 void look_at_method(struct adviser *adviser, const struct model *model)
 {
-    static const double seen = .1;
     const struct scene *scene = adviser->scene;
     if (scene->reference.kind[0] != '\0' || !(scene->body.spacing > 0) || on_splines(model)) return;
     const bool papers = strcmp(model->method->variant, "paper") == 0;
@@ -237,12 +235,13 @@ void look_at_method(struct adviser *adviser, const struct model *model)
         papers ? error_at_faces(scene, model->waves.ends, plane_wave_speed(scene) * scene->end_time) : 0;
     const double error =
         fmax(error_of_first(scene, &model->waves), error_of_sent(scene, &model->waves)) + faces;
-    const bool remains = model->waves.floor + model->waves.shear > LASTING || faces > seen;
-    const char *better = error > seen ? better_points(adviser, model) : "";
-    if (error > seen)
+    const bool remains = model->waves.floor + model->waves.shear > LASTING || faces > WAVES_SEEN;
+    const char *better = error > WAVES_SEEN ? better_points(adviser, model) : "";
+    if (error > WAVES_SEEN)
         advise(adviser,
                "waves on the points of variant '%s' err by up to %.2g when they have travelled to "
                "end_time%s; %s%s%s would be right",
                model->method->variant, fmin(1, error), remains ? ", much of it whatever the spacing" : "",
                remains && *better ? "" : "finer points", remains || !*better ? "" : " or ", better);
+    look_at_bending(adviser, model, fmax(error, WAVES_SEEN));
 }

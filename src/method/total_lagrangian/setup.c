@@ -300,9 +300,12 @@ static double disorder(const struct tl_model *tl)
 struct wave_law tl_waves(const struct tl_model *tl)
 {
     const struct tl_options *options = &tl->options;
-    if (options->central) return (struct wave_law){.constant = 400, .order = 4, .sent = 400, .sent_order = 4};
+    if (options->central)
+        return (struct wave_law){
+            .constant = 400, .order = 4, .sent = 400, .sent_order = 4, .bends = .3, .bends_order = 2};
     if (options->form != NULL)
-        return (struct wave_law){.constant = 44, .order = 2, .sent = 35, .sent_order = 2};
+        return (struct wave_law){
+            .constant = 44, .order = 2, .sent = 35, .sent_order = 2, .bends = .4, .bends_order = 2};
     const double loose = 1 + 0.55 / fmax(1e-3, options->hourglass);
     const double scatter = tl->cloud->grid[0] > 0 ? 0 : loose * disorder(tl);
     return (struct wave_law){.constant = 44 * dispersion(tl),
@@ -310,7 +313,9 @@ struct wave_law tl_waves(const struct tl_model *tl)
                              .sent = 48 * dispersion(tl),
                              .sent_order = 2,
                              .floor = scatter,
-                             .scatter = scatter};
+                             .scatter = scatter,
+                             .bends = options->degree == 2 ? .5 : 4,
+                             .bends_order = 2};
 }
 
 double tl_largest_spacing(const struct tl_model *tl)

@@ -232,7 +232,9 @@ static struct wave_law waves_of(const struct updated *updated, double disorder)
                              .sent = thick ? 1.7 + 2 * options->alpha : 86 * lost,
                              .sent_order = thick ? 1 : 2,
                              .floor = .5 * options->artificial_stress + scatter,
-                             .scatter = scatter};
+                             .scatter = scatter,
+                             .bends = 1,
+                             .bends_order = 1};
 }
 
 static selas_status build(struct updated *updated, struct messages *messages)
