@@ -175,6 +175,6 @@ void look_at_bending(struct adviser *adviser, const struct model *model, double 
             points = n;
             axis = across;
         }
-    if (!(worst > told)) return;
+    if (!(fmin(1, worst) > told)) return;
     tell_of_bending(adviser, law, (struct found){worst, points, axis});
 }

@@ -220,10 +220,10 @@ enum patch_sight {
 
 /* What a plane wave errs by for each of its wavelengths that it travels, if it has p points: floor + constant /
  * p^order (doc/howto/spacing.md), S waves shear more; all 0: not told. What waves of loads err by, p at half their
- * largest amplitude: floor + sent / p^sent_order. Of the consistent method alone: shares of it that a Gaussian state
- * errs by, as it is and as slower waves (initial-states.md). Of the paper's: what they err by at each end of a bar that
- * is not held. Of scattered points the share of `floor` that their scatter has. Frequencies of a beam of n points across
- * are bends / n^bends_order of themselves too low; 0: not told. */
+ * largest amplitude: floor + sent / p^sent_order. Of the consistent method alone: shares of it that a Gaussian
+ * state errs by, as it is and as slower waves (initial-states.md). Of the paper's: what they err by at each end of
+ * a bar that is not held. Of scattered points the share of `floor` that their scatter has. Frequencies of a beam
+ * of n points across are bends / n^bends_order of themselves too low; 0: not told. */
 struct wave_law {
     double constant, order, floor, spread, turned, shear, sent, sent_order, ends, scatter, bends, bends_order;
 };

@@ -1,5 +1,5 @@
-/* Loads and dampers of total-Lagrangian SPH. Forces at a place and moment tensors work on the moving-least-squares value
- * and gradient there: f_i = w_i(x) P, f_i = M grad w_i(x), which keeps force and moment. */
+/* Loads and dampers of total-Lagrangian SPH. Forces at a place and moment tensors work on the moving-least-squares
+ * value and gradient there: f_i = w_i(x) P, f_i = M grad w_i(x), which keeps force and moment. */
 #include "method/total_lagrangian/total_lagrangian.h"
 
 #include "base/memory.h"
