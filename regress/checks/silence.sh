@@ -1051,7 +1051,7 @@ cat >slender.nml <<'END'
 &output plots = F /
 END
 told "a thin cantilever that bends" "bending of a body only 5 points thick along y, .* err by up to about 0.[0-9]* by end_time; [0-9]* points, or method%name = 'smoothed-point', variant = 'consistent'," check slender.nml
-told "by linear gradients" "bending of a body only 5 points thick.* gradient = .quadratic." check slender.nml method%gradient=linear scene%end_time=60
+told "by linear gradients" "bending of a body only 5 points thick.*%gradient = .quadratic." check slender.nml method%gradient=linear scene%end_time=60
 told "a face moved across" "bending of a body only 5 points thick" check slender.nml load%amplitude=0 boundary%kind=displacement boundary%direction=0,1 boundary%amplitude=1e-4 boundary%history=gaussian boundary%width=6 boundary%delay=24
 untold "pulled along" check slender.nml load%direction=1,0
 untold "free and carried along" check slender.nml boundary%kind=free
