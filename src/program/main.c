@@ -68,9 +68,28 @@ static const struct argp_option options[] = {
     {0},
 };
 
+/* NULL: nothing. */
+static const char *what_is_wrong(const struct arguments *arguments)
+{
+    const bool check = strcmp(arguments->command, "check") == 0;
+    const bool restart = strcmp(arguments->command, "restart") == 0;
+    if (arguments->deck == NULL)
+        return restart ? "no checkpoint was named: selas restart output/NAME/unfinished/checkpoint.h5"
+               : strcmp(arguments->command, "rerun") == 0
+                   ? "no run was named: selas rerun output/NAME/run.h5"
+                   : "no deck was named; try: selas input/halfspace.nml";
+    if (arguments->echo && !check) return "--echo goes with check: selas check --echo DECK";
+    if (arguments->plot && !check) return "--plot goes with check: selas check --plot DECK";
+    if (arguments->overrides > 0 && restart)
+        return "a restart takes no overrides: it ends as the run that was begun";
+    return NULL;
+}
+
+/* On ranks argp_error() comes back. */
 static error_t parse_option(int key, char *argument, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
+    const char *wrong;
     static const char *const commands[] = {"run", "check", "exact", "restart", "rerun"};
     switch (key) {
     case 'q':
@@ -93,11 +112,13 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
                     return 0;
                 }
             arguments->command = "run";
-            if (strpbrk(argument, "./") == NULL && access(argument, F_OK) != 0)
+            if (strpbrk(argument, "./") == NULL && access(argument, F_OK) != 0) {
                 argp_error(state,
                            "'%s' is neither a command nor a deck; commands are run, check, exact, restart, "
                            "rerun, diff and words",
                            argument);
+                return EINVAL;
+            }
         }
         if (arguments->deck == NULL)
             arguments->deck = argument;
@@ -105,20 +126,10 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
             arguments->override[arguments->overrides++] = argument;
         return 0;
     case ARGP_KEY_END:
-        if (arguments->deck == NULL)
-            argp_error(state, "%s",
-                       strcmp(arguments->command, "restart") == 0
-                           ? "no checkpoint was named: selas restart output/NAME/unfinished/checkpoint.h5"
-                       : strcmp(arguments->command, "rerun") == 0
-                           ? "no run was named: selas rerun output/NAME/run.h5"
-                           : "no deck was named; try: selas input/halfspace.nml");
-        if (arguments->echo && strcmp(arguments->command, "check") != 0)
-            argp_error(state, "--echo goes with check: selas check --echo DECK");
-        if (arguments->plot && strcmp(arguments->command, "check") != 0)
-            argp_error(state, "--plot goes with check: selas check --plot DECK");
-        if (arguments->overrides > 0 && strcmp(arguments->command, "restart") == 0)
-            argp_error(state, "a restart takes no overrides: it ends as the run that was begun");
-        return 0;
+        wrong = what_is_wrong(arguments);
+        if (wrong == NULL) return 0;
+        argp_error(state, "%s", wrong);
+        return EINVAL;
     default:
         return ARGP_ERR_UNKNOWN;
     }
@@ -199,12 +210,14 @@ static selas_status carry_out(selas_simulation *simulation, const struct argumen
     return run_program(simulation, restart ? arguments->deck : NULL, arguments->quiet, told);
 }
 
-/* On ranks the first one speaks, and none ends by itself. */
-static bool read_words(const struct argp *parser, int count, char **words, const struct ranks *ranks,
+/* On ranks the first one speaks, and none ends by itself; what is wrong on one is wrong on all. */
+static bool read_words(const struct argp *parser, int count, char **words, struct ranks *ranks,
                        struct arguments *arguments)
 {
     const unsigned flags = ranks_count(ranks) == 1 ? 0 : ranks_first(ranks) ? ARGP_NO_EXIT : ARGP_SILENT;
-    return argp_parse(parser, count, words, flags, NULL, arguments) == 0 && arguments->deck != NULL;
+    double wrong = argp_parse(parser, count, words, flags, NULL, arguments) != 0 || arguments->deck == NULL;
+    ranks_largest(ranks, 1, &wrong);
+    return wrong == 0;
 }
 
 /* `selas -q diff A B` is `selas diff -q A B`. */
