@@ -2,16 +2,16 @@
 # What is refused; how runs end that go wrong.
 one_line "the variant cloud" "on one rank" 3 input/halfspace-cloud.nml
 one_line "a wrong word" "number" 3 regress/parallel/tall.nml body%spacing=wide
-command() { # command PATTERN WORDS...: a command that is wrong is told as in one process, and nothing is run
+wrong_words() { # wrong_words PATTERN WORDS...: a command that is wrong is told as in one process, and nothing is run
     pattern=$1
     shift
     quiet 3 "$@"
     [ $? = 2 ] && [ "$(grep -c '^selas-mpi: ' "$work/log")" = 1 ] && grep -q "^selas-mpi: .*$pattern" "$work/log" && ! grep -q 'error: ' "$work/log"
     verdict $? "a wrong command on 3 ranks: $pattern"
 }
-command "neither a command nor a deck" nodeck
-command "a restart takes no overrides" restart no.h5 scene%end_time=2
-command "plot goes with check" --plot regress/parallel/tall.nml scene%end_time=.1 output%directory="$work/command"
+wrong_words "neither a command nor a deck" nodeck
+wrong_words "a restart takes no overrides" restart no.h5 scene%end_time=2
+wrong_words "plot goes with check" --plot regress/parallel/tall.nml scene%end_time=.1 output%directory="$work/command"
 quiet 7 regress/cases/half-space-pml/deck.nml scene%end_time=.1 output%directory="$work/few" && grep -q '^warning: of 7 ranks 1 can work' "$work/log"
 verdict $? "a body of few planes takes fewer ranks and says so"
 quiet 2 regress/parallel/tall.nml scene%end_time=1.2 "load(1)%amplitude=0" "load(2)%amplitude=1e41" "snapshot(1)%times=1.2" output%directory="$work/vast" &&
