@@ -186,7 +186,8 @@ static void tell_loss(const struct recorder *recorder, teller *tell, void *conte
     const double given = watch->initial + watch->gross;
     const bool untold = model->core->loss != NULL && !recorder->scene->output.balance;
     char text[400];
-    if (untold || model->layers || model->untold || model->leaks || !(-watch->gained > loss_noted * given))
+    if (untold || model->layers || watch->untold != 0 || model->leaks ||
+        !(-watch->gained > loss_noted * given))
         return;
     snprintf(
         text, sizeof text,

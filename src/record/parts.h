@@ -70,6 +70,7 @@ struct watch {
     double last_time;
     double sampled; /* sum of squares of a sample of the velocities when they were last energetic */
     double next;    /* step of the next look at the whole state */
+    double untold;  /* 1: dampers did not tell all in some step, here or where the run was before (ranks) */
     /* what watch_start() makes anew */
     double face_energy, face_rate; /* moved faces do work of the order of face_energy (1 + face_rate t)^2 */
     bool with_faces;               /* there are such */

@@ -48,8 +48,7 @@ static void write_energy(FILE *out, const struct recorder *recorder)
     fprintf(out, "work of loads: %.6e\n", watch->worked);
     const bool losing = recorder->model->core->loss != NULL, told = losing && recorder->scene->output.balance;
     if (told) fprintf(out, "energy taken by damping: %.6e\n", watch->taken);
-    if (recorder->model->layers || recorder->model->untold)
-        return; /* not all is measured: there is no balance */
+    if (recorder->model->layers || watch->untold != 0) return; /* not all is measured: there is no balance */
     if (losing && !told) {
         fprintf(out, "energy taken by damping: %.6e (work less what is left; output%%balance measures it)\n",
                 watch->initial + watch->worked - watch->let_out - watch->last.kinetic - watch->last.strain);

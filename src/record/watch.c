@@ -81,6 +81,7 @@ static void add_work(struct recorder *recorder, const struct state *state, doubl
 {
     struct watch *watch = &recorder->watch;
     double damped = 0.0;
+    if (recorder->model->untold) watch->untold = 1;
     if (recorder->scene->output.balance && recorder->model->core->loss != NULL) {
         state_settle(recorder->stepper, state, false);
         damped = recorder->model->core->loss(recorder->model, state->y);
