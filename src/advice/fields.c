@@ -2,6 +2,7 @@
 #include "advice/parts.h"
 
 #include "scene/ground.h"
+#include "scene/resolution.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -149,4 +150,50 @@ void look_at_fields(struct adviser *adviser)
            "strain that is smooth there, and wrong by up to the ratio of the moduli, whatever the spacing; "
            "places two spacings off%s would do",
            what, consistent && !ground_needs_general(scene) ? ", or method%operator = 'layered'," : "");
+}
+
+/* How many times the shear modulus differs along the axes within a spacing of where a profile reads stress, at most. */
+static double jump_read(const struct scene *scene, const struct profile *profile)
+{
+    enum { STEPS = 4 };
+    double most = 1;
+    for (size_t i = 0; i < profile->points; i++) {
+        double position[3], centre[3] = {0, 0, 0};
+        profile_position(profile, i, position);
+        if (!at_jump(scene, position)) continue;
+        ground_from_deck(&scene->body, position, centre);
+        const double step = spacing_at(scene, position) / STEPS, here = ground_at(scene, centre).mu;
+        for (int axis = 0; axis < scene->dimension; axis++)
+            for (int n = -STEPS; n <= STEPS; n++) {
+                double place[3] = {centre[0], centre[1], centre[2]};
+                place[axis] += n * step;
+                const double mu = ground_at(scene, place).mu;
+                most = fmax(most, fmax(mu / here, here / mu));
+            }
+    }
+    return most;
+}
+
+/* What those stresses err by, in the plane at most 1.24 (r - 1) / p^2 (regress/studies/blocks BUILD stresses). */
+void look_at_stresses(struct adviser *adviser)
+{
+    static const double seen = .1, law = 1.3;
+    const struct scene *scene = adviser->scene;
+    const double points = points_per_wavelength(scene);
+    if (strcmp(scene->method.variant, "consistent") != 0 || !by_general_operator(scene) || !(points > 0))
+        return;
+    for (size_t i = 0; i < scene->profiles; i++) {
+        const struct profile *profile = &scene->profile[i];
+        if (!by_law(profile->fields) || profile_at_jump(scene, profile, !ground_is_damped(scene))) continue;
+        const double times = jump_read(scene, profile), error = law * (times - 1) / (points * points);
+        if (!(error > seen)) continue;
+        advise(adviser,
+               "profile '%s' has stress, pressure or energy across rocks of %.3g times the shear modulus: at "
+               "%.3g "
+               "points per wavelength they err by up to about %.2g within three spacings of that; "
+               "body%%spacing = "
+               "%.3g would be right",
+               profile->name, times, points, fmin(1, error), scene->body.spacing * sqrt(seen / 2 / error));
+        return;
+    }
 }

@@ -14,6 +14,7 @@
 selas_status probe_allocate(struct probe *probe, size_t count, struct messages *messages)
 {
     probe->count = count;
+    probe->sites = probe->strains = 0;
     probe->index = array_new(count, sizeof *probe->index);
     probe->weight = array_new(count, sizeof *probe->weight);
     probe->gradient = array_new(3 * count, sizeof *probe->gradient);
