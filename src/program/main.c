@@ -58,6 +58,7 @@ struct arguments {
     size_t overrides;
     const char **override;
     bool quiet, strict, echo, plot;
+    bool tells; /* --help and the like, after which argp goes on where others run too */
 };
 
 static const struct argp_option options[] = {
@@ -126,7 +127,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
             arguments->override[arguments->overrides++] = argument;
         return 0;
     case ARGP_KEY_END:
-        wrong = what_is_wrong(arguments);
+        wrong = arguments->tells ? NULL : what_is_wrong(arguments);
         if (wrong == NULL) return 0;
         argp_error(state, "%s", wrong);
         return EINVAL;
@@ -215,7 +216,14 @@ static bool read_words(const struct argp *parser, int count, char **words, struc
                        struct arguments *arguments)
 {
     const unsigned flags = ranks_count(ranks) == 1 ? 0 : ranks_first(ranks) ? ARGP_NO_EXIT : ARGP_SILENT;
-    double wrong = argp_parse(parser, count, words, flags, NULL, arguments) != 0 || arguments->deck == NULL;
+    static const char *const telling[] = {"--help", "-?", "--usage", "--version", "-V"};
+    for (int i = 1; i < count; i++)
+        for (size_t t = 0; t < sizeof telling / sizeof *telling; t++)
+            arguments->tells = arguments->tells || strcmp(words[i], telling[t]) == 0;
+    double wrong = 0; /* silent ones know no --help */
+    if (!arguments->tells || ranks_first(ranks))
+        wrong = argp_parse(parser, count, words, flags, NULL, arguments) != 0 ||
+                (arguments->deck == NULL && !arguments->tells);
     ranks_largest(ranks, 1, &wrong);
     return wrong == 0;
 }
@@ -235,17 +243,28 @@ static void command_first(int count, char **words)
 int main(int count, char **words)
 {
     command_first(count, words);
-    if (count > 1 && strcmp(words[1], "diff") == 0) return diff_command(count - 1, words + 1);
-    if (count > 1 && strcmp(words[1], "words") == 0) return words_command(count - 1, words + 1);
+    struct ranks *ranks = ranks_begin();
+    const bool diff = count > 1 && strcmp(words[1], "diff") == 0;
+    if (diff || (count > 1 && strcmp(words[1], "words") == 0)) {
+        const int ended = !ranks_first(ranks) ? EXIT_DONE
+                          : diff              ? diff_command(count - 1, words + 1)
+                                              : words_command(count - 1, words + 1);
+        ranks_end(&ranks);
+        return ended;
+    }
     const struct argp parser = {options, parse_option, usage, documentation, NULL, NULL, NULL};
     struct arguments arguments = {.command = ""};
     arguments.override = calloc((size_t)count + 1, sizeof *arguments.override);
-    if (arguments.override == NULL) return EXIT_RUN_FAILED;
+    if (arguments.override == NULL) {
+        ranks_abort(ranks, EXIT_RUN_FAILED);
+        return EXIT_RUN_FAILED;
+    }
     argp_err_exit_status = EXIT_BAD_INPUT;
-    struct ranks *ranks = ranks_begin();
-    if (!read_words(&parser, count, words, ranks, &arguments)) {
+    const bool right = read_words(&parser, count, words, ranks, &arguments);
+    if (!right || arguments.tells) {
+        free(arguments.override);
         ranks_end(&ranks);
-        return EXIT_BAD_INPUT;
+        return right ? EXIT_DONE : EXIT_BAD_INPUT;
     }
     selas_simulation *simulation = NULL;
     size_t told = 0;

@@ -12,6 +12,15 @@ wrong_words() { # wrong_words PATTERN WORDS...: a command that is wrong is told 
 wrong_words "neither a command nor a deck" nodeck
 wrong_words "a restart takes no overrides" restart no.h5 scene%end_time=2
 wrong_words "plot goes with check" --plot regress/parallel/tall.nml scene%end_time=.1 output%directory="$work/command"
+telling() { # telling WHAT WORDS...: as many lines as in one process
+    what=$1
+    shift
+    timeout 60 $mpirun -n 3 "$build/selas-mpi" "$@" >"$work/log" 2>&1 && [ "$(grep -c . "$work/log")" = "$("$build/selas" "$@" | grep -c .)" ]
+    verdict $? "$what"
+}
+telling "the version is told once" --version
+telling "help is told once" --help
+telling "words are told once" words scene
 quiet 7 regress/cases/half-space-pml/deck.nml scene%end_time=.1 output%directory="$work/few" && grep -q '^warning: of 7 ranks 1 can work' "$work/log"
 verdict $? "a body of few planes takes fewer ranks and says so"
 quiet 2 regress/parallel/tall.nml scene%end_time=1.2 "load(1)%amplitude=0" "load(2)%amplitude=1e41" "snapshot(1)%times=1.2" output%directory="$work/vast" &&
