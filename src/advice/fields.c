@@ -128,18 +128,17 @@ static bool snapshot_at_jump(const struct scene *scene, const struct snapshot *s
 }
 
 /* Strains of the general operator and of particles are smooth where the rock jumps, so that moduli of the place make
- * of them stresses that are not there (doc/theory/general-ground.md). Profiles in ground without damping read them
- * across a surface. */
+ * of them stresses that are not there (doc/theory/general-ground.md). Profiles in ground read them across a
+ * surface. */
 void look_at_fields(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
     const bool consistent = strcmp(scene->method.variant, "consistent") == 0;
-    const bool read = consistent && !ground_is_damped(scene);
     char what[NAME_SIZE + 16] = "";
     if (consistent ? !by_general_operator(scene) : strcmp(scene->method.variant, "total-lagrangian") != 0)
         return;
     for (size_t i = 0; i < scene->profiles && what[0] == '\0'; i++)
-        if (by_law(scene->profile[i].fields) && profile_at_jump(scene, &scene->profile[i], read))
+        if (by_law(scene->profile[i].fields) && profile_at_jump(scene, &scene->profile[i], consistent))
             snprintf(what, sizeof what, "profile '%s'", scene->profile[i].name);
     for (size_t i = 0; i < scene->snapshots && what[0] == '\0'; i++)
         if (by_law(scene->snapshot[i].fields) && snapshot_at_jump(scene, &scene->snapshot[i]))
@@ -184,7 +183,7 @@ void look_at_stresses(struct adviser *adviser)
         return;
     for (size_t i = 0; i < scene->profiles; i++) {
         const struct profile *profile = &scene->profile[i];
-        if (!by_law(profile->fields) || profile_at_jump(scene, profile, !ground_is_damped(scene))) continue;
+        if (!by_law(profile->fields) || profile_at_jump(scene, profile, true)) continue;
         const double times = jump_read(scene, profile), error = law * (times - 1) / (points * points);
         if (!(error > seen)) continue;
         advise(adviser,

@@ -26,8 +26,6 @@ static selas_status find_probe(struct model *model, const double position[3], st
                                struct messages *messages)
 {
     struct model *first = first_of(model);
-    /* those of all parts */
-    probe->fields &= ~(1U << SELAS_STRESS | 1U << SELAS_PRESSURE | 1U << SELAS_ENERGY);
     return first->core->probe(first, position, probe, messages);
 }
 
