@@ -9,10 +9,10 @@ chain "restart, damped ground, modified equation" regress/parallel/tall.nml mate
 chain "restart, points along the first axis" regress/parallel/long-sph.nml scene%end_time=20
 chain "restart, points in layers" regress/parallel/column-sph.nml scene%end_time=10
 chain "restart, particles that move" regress/parallel/moving-particles.nml scene%end_time=20
+chain "restart, dampers beside a mass of sweeps" regress/parallel/tall-dampers.nml scene%end_time=20
+grep -q '^energy absorbed: ' "$work/alone/report.txt" && ! grep -qE '^energy absorbed: |^warning: of the energy' "$work/chain/report.txt"
+verdict $? "and what its dampers took on ranks, which is not told, is not told after them"
 one=2x2 two=3x1
 chain "restart on blocks" regress/parallel/wide.nml
 chain "restart on blocks, passes one by one, damped" regress/parallel/wide.nml method%fused=F material%q_p=40 material%q_s=25
 chain "restart on blocks, single precision" regress/parallel/wide.nml method%precision=single
-chain "restart, dampers beside a mass of sweeps" regress/parallel/tall-dampers.nml scene%end_time=20
-grep -q '^energy absorbed: ' "$work/alone/report.txt" && ! grep -qE '^energy absorbed: |^warning: of the energy' "$work/chain/report.txt"
-verdict $? "and what its dampers took on ranks, which is not told, is not told after them"
