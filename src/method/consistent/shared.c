@@ -185,10 +185,6 @@ void shared_describe(const struct consistent *c,
     snprintf(text + used, sizeof text - (size_t)used,
              y->ranks > 1 ? ", %zu rows to a neighbour)" : " to a neighbour)", y->halo);
     tell(context, "halo bytes a step", text);
-    snprintf(text, sizeof text,
-             "%.2f of as many times one rank's speed, without waiting for the network and for memory",
-             part_efficiency(c));
-    tell(context, "expected efficiency", text);
 }
 
 /* --- What is wrong -------------------------------------------------------------------------------------- */

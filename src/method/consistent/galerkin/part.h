@@ -57,9 +57,6 @@ struct rank_part {
  * too many become idle, whose status is SELAS_STOPPED. */
 selas_status part_lay(struct consistent *c, struct messages *messages);
 void part_free(struct consistent *c);
-/* What ranks should keep of the speed of as many times one: the mean of their own work over the largest with that for the
- * halo (doc/developers/ranks.md, Eq R2c). */
-double part_efficiency(const struct consistent *c);
 
 /* Does the rank have a part of the rows alone? */
 static inline bool part_rows(const struct rank_part *part)

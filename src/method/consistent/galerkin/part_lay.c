@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -273,47 +272,4 @@ void part_free(struct consistent *c)
         array_free(c->part.along[slot].bound);
     for (int i = 0; i < 4; i++)
         array_free(c->part.room[i]);
-}
-
-/* So many of a slot's control values from .. end - 1 of the body lie in absorbing layers across it. */
-static double layers_between(const struct consistent *c, int slot, size_t from, size_t end)
-{
-    const int face = 2 * axis_of(c, slot);
-    const size_t whole = c->part.along[slot].whole, low = c->layer[face], high = whole - c->layer[face + 1];
-    double count = 0;
-    for (size_t k = from; k < end && whole > 1; k++)
-        count += k < low || k >= high;
-    return count;
-}
-
-/* The bounds of part r along a slot, and what its window has besides. */
-static void bounds_of(const struct part_axis *along, int r, size_t *from, size_t *end, double *halo)
-{
-    *from = along->bound != NULL ? along->bound[r] : 0;
-    *end = along->bound != NULL ? along->bound[r + 1] : along->whole;
-    *halo =
-        fmin((double)along->halo, (double)*from) + fmin((double)along->halo, (double)(along->whole - *end));
-}
-
-double part_efficiency(const struct consistent *c)
-{
-    static const double of_halo = .18; /* of a point's work */
-    const struct part_axis *along = c->part.along;
-    const double each = layer_cost(c->model.scene),
-                 row = 1 + each * layers_between(c, 0, 0, along[0].whole) / (double)along[0].whole;
-    double all = 0, most = 0;
-    for (int z = 0; z < along[DEPTH].ranks; z++)
-        for (int y = 0; y < along[1].ranks; y++) {
-            size_t from[2], end[2];
-            double halo[2];
-            bounds_of(&along[1], y, &from[0], &end[0], &halo[0]);
-            bounds_of(&along[DEPTH], z, &from[1], &end[1], &halo[1]);
-            const double rows = (double)(end[0] - from[0]), planes = (double)(end[1] - from[1]);
-            const double own =
-                rows * planes * row + each * (layers_between(c, 1, from[0], end[0]) * planes +
-                                              layers_between(c, DEPTH, from[1], end[1]) * rows);
-            all += own;
-            most = fmax(most, own + of_halo * ((rows + halo[0]) * (planes + halo[1]) - rows * planes));
-        }
-    return all / (along[1].ranks * along[DEPTH].ranks * most);
 }
