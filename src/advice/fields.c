@@ -34,7 +34,7 @@ static bool differ(const struct rock one, const struct rock other)
                slight * (other.lambda + 2 * other.mu);
 }
 
-enum { WIDE = 3, PARTS = 2, FAR = WIDE * PARTS, PLACES = 2 * FAR + 1 }; /* spacings; places in one */
+enum { WIDE = 3, PARTS = 2, FAR = WIDE * PARTS }; /* spacings; places in one */
 
 /* Is the rock about a place that of the line along `normal` through it, but for a twentieth? */
 static bool varies_along(const struct scene *scene, const double centre[3], double spacing,
@@ -86,14 +86,35 @@ static bool read_across(const struct scene *scene, const double position[3])
     return false;
 }
 
-static bool profile_at_jump(const struct scene *scene, const struct profile *profile, bool read)
+/* How many times the shear modulus differs from that of a place within a spacing along the axes, at most. */
+static double jump_beside(const struct scene *scene, const double position[3])
 {
-    for (size_t i = 0; i < profile->points; i++) {
+    enum { STEPS = 4 };
+    double most = 1, centre[3] = {0, 0, 0};
+    ground_from_deck(&scene->body, position, centre);
+    const double step = spacing_at(scene, position) / STEPS, here = ground_at(scene, centre).mu;
+    for (int axis = 0; axis < scene->dimension; axis++)
+        for (int n = -STEPS; n <= STEPS; n++) {
+            double place[3] = {centre[0], centre[1], centre[2]};
+            place[axis] += n * step;
+            const double mu = ground_at(scene, place).mu;
+            most = fmax(most, fmax(mu / here, here / mu));
+        }
+    return most;
+}
+
+/* How many times it does where a profile reads strains across jumps; INFINITY: it has smooth ones at some of them. */
+static double jump_of(const struct scene *scene, const struct profile *profile, bool reads)
+{
+    double most = 1;
+    for (size_t i = 0; i < profile->points && by_law(profile->fields); i++) {
         double position[3];
         profile_position(profile, i, position);
-        if (at_jump(scene, position) && !(read && read_across(scene, position))) return true;
+        if (!at_jump(scene, position)) continue;
+        if (!reads || !read_across(scene, position)) return INFINITY;
+        most = fmax(most, jump_beside(scene, position));
     }
-    return false;
+    return most;
 }
 
 /* A box of the lattice, as a snapshot's region is. */
@@ -127,19 +148,39 @@ static bool snapshot_at_jump(const struct scene *scene, const struct snapshot *s
     return jumps_in(scene, part.low, part.high, part_holds, &part);
 }
 
+/* What stresses read across interfaces err by, in the plane at most 1.24 (r - 1) / p^2 (regress/studies/blocks BUILD
+ * stresses). */
+static bool told_of_contrast(struct adviser *adviser, const struct profile *profile, double times)
+{
+    static const double seen = .1, law = 1.3;
+    const struct scene *scene = adviser->scene;
+    const double points = points_per_wavelength(scene), error = law * (times - 1) / (points * points);
+    if (!(points > 0) || isinf(times) || !(error > seen)) return false;
+    advise(adviser,
+           "profile '%s' has stress, pressure or energy across rocks of %.3g times the shear modulus: at "
+           "%.3g points per wavelength they err by up to about %.2g within three spacings of that; "
+           "body%%spacing = %.3g would be right",
+           profile->name, times, points, fmin(1, error), scene->body.spacing * sqrt(seen / 2 / error));
+    return true;
+}
+
 /* Strains of the general operator and of particles are smooth where the rock jumps, so that moduli of the place make
- * of them stresses that are not there (doc/theory/general-ground.md). Profiles in ground read them across a
+ * of them stresses that are not there (doc/theory/general-ground.md). Profiles on splines read them across a
  * surface. */
 void look_at_fields(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
     const bool consistent = strcmp(scene->method.variant, "consistent") == 0;
+    bool told = false;
     char what[NAME_SIZE + 16] = "";
     if (consistent ? !by_general_operator(scene) : strcmp(scene->method.variant, "total-lagrangian") != 0)
         return;
-    for (size_t i = 0; i < scene->profiles && what[0] == '\0'; i++)
-        if (by_law(scene->profile[i].fields) && profile_at_jump(scene, &scene->profile[i], consistent))
+    for (size_t i = 0; i < scene->profiles; i++) {
+        const double times = jump_of(scene, &scene->profile[i], consistent);
+        if (isinf(times) && what[0] == '\0')
             snprintf(what, sizeof what, "profile '%s'", scene->profile[i].name);
+        told = told || told_of_contrast(adviser, &scene->profile[i], times);
+    }
     for (size_t i = 0; i < scene->snapshots && what[0] == '\0'; i++)
         if (by_law(scene->snapshot[i].fields) && snapshot_at_jump(scene, &scene->snapshot[i]))
             snprintf(what, sizeof what, "&snapshot %zu", i + 1);
@@ -149,50 +190,4 @@ void look_at_fields(struct adviser *adviser)
            "strain that is smooth there, and wrong by up to the ratio of the moduli, whatever the spacing; "
            "places two spacings off%s would do",
            what, consistent && !ground_needs_general(scene) ? ", or method%operator = 'layered'," : "");
-}
-
-/* How many times the shear modulus differs along the axes within a spacing of where a profile reads stress, at most. */
-static double jump_read(const struct scene *scene, const struct profile *profile)
-{
-    enum { STEPS = 4 };
-    double most = 1;
-    for (size_t i = 0; i < profile->points; i++) {
-        double position[3], centre[3] = {0, 0, 0};
-        profile_position(profile, i, position);
-        if (!at_jump(scene, position)) continue;
-        ground_from_deck(&scene->body, position, centre);
-        const double step = spacing_at(scene, position) / STEPS, here = ground_at(scene, centre).mu;
-        for (int axis = 0; axis < scene->dimension; axis++)
-            for (int n = -STEPS; n <= STEPS; n++) {
-                double place[3] = {centre[0], centre[1], centre[2]};
-                place[axis] += n * step;
-                const double mu = ground_at(scene, place).mu;
-                most = fmax(most, fmax(mu / here, here / mu));
-            }
-    }
-    return most;
-}
-
-/* What those stresses err by, in the plane at most 1.24 (r - 1) / p^2 (regress/studies/blocks BUILD stresses). */
-void look_at_stresses(struct adviser *adviser)
-{
-    static const double seen = .1, law = 1.3;
-    const struct scene *scene = adviser->scene;
-    const double points = points_per_wavelength(scene);
-    if (strcmp(scene->method.variant, "consistent") != 0 || !by_general_operator(scene) || !(points > 0))
-        return;
-    for (size_t i = 0; i < scene->profiles; i++) {
-        const struct profile *profile = &scene->profile[i];
-        if (!by_law(profile->fields) || profile_at_jump(scene, profile, true)) continue;
-        const double times = jump_read(scene, profile), error = law * (times - 1) / (points * points);
-        if (!(error > seen)) continue;
-        advise(adviser,
-               "profile '%s' has stress, pressure or energy across rocks of %.3g times the shear modulus: at "
-               "%.3g "
-               "points per wavelength they err by up to about %.2g within three spacings of that; "
-               "body%%spacing = "
-               "%.3g would be right",
-               profile->name, times, points, fmin(1, error), scene->body.spacing * sqrt(seen / 2 / error));
-        return;
-    }
 }

@@ -110,8 +110,6 @@ void look_at_passed(struct adviser *adviser, size_t load);
 void look_at_interfaces(struct adviser *adviser);
 /* Stresses that are asked for where the rock jumps (jumps.c). */
 void look_at_fields(struct adviser *adviser);
-/* Stresses that are read across interfaces of strong contrast. */
-void look_at_stresses(struct adviser *adviser);
 /* Rock that jumps in general ground (jumps.c, stacks.c, soft.c). */
 void look_at_weights(struct adviser *adviser);
 void look_at_walls(struct adviser *adviser);
