@@ -222,6 +222,32 @@ static void loads(void **unused)
     from_deck_free(&d);
 }
 
+/* A mechanism is the double couple of its fault's normal and slip (Aki & Richards 2002, Eqs 4.88 and 4.89); right angles are
+ * exact. */
+static void mechanisms(void **unused)
+{
+    (void)unused;
+    static const int place[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    const double strike = 130 * M_PI / 180, dip = 35 * M_PI / 180, rake = -60 * M_PI / 180;
+    const double normal[3] = {-sin(dip) * sin(strike), sin(dip) * cos(strike), -cos(dip)};
+    const double slip[3] = {cos(rake) * cos(strike) + cos(dip) * sin(rake) * sin(strike),
+                            cos(rake) * sin(strike) - cos(dip) * sin(rake) * cos(strike),
+                            -sin(rake) * sin(dip)};
+    struct from_deck d = right_scene(
+        BOX "&load kind='moment-tensor', centre=3,3,3, mechanism=130,35,-60, history='step' /\n"
+            "&load kind='moment-tensor', centre=3,3,3, mechanism=0,90,0, amplitude=2, history='step' /\n"
+            "&load kind='moment-tensor', centre=3,3,3, mechanism=90,45,90, history='step' /\n");
+    const struct load *l = d.scene->load;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            assert_near(l[0].moment[place[i][j]], normal[i] * slip[j] + normal[j] * slip[i], 1e-15);
+    for (int n = 0; n < 6; n++) {
+        assert_true(l[1].moment[n] == (n == 3 ? 1 : 0));
+        assert_true(l[2].moment[n] == (n == 0 ? -1 : n == 2 ? 1 : 0));
+    }
+    from_deck_free(&d);
+}
+
 /* A turned body: the centre of the load is given in the deck's coordinates. */
 static void load_on_a_turned_face(void **unused)
 {
@@ -467,6 +493,7 @@ int main(void)
         cmocka_unit_test(faces),
         cmocka_unit_test(tables_of_faces),
         cmocka_unit_test(loads),
+        cmocka_unit_test(mechanisms),
         cmocka_unit_test(load_on_a_turned_face),
         cmocka_unit_test(receivers_and_outputs),
         cmocka_unit_test(layers),

@@ -277,6 +277,9 @@ static const struct word load_words[] = {
     {"size", WORD_REAL, 2, NULL, POSITIVE, OPTIONAL, "edges of the square, or diameter of the disc [length]"},
     {"direction", WORD_REAL, 3, NULL, NULL, OPTIONAL, "direction of the force"},
     {"moment", WORD_REAL, 6, NULL, NULL, OPTIONAL, "moment tensor: xx yy zz xy yz zx [force length]"},
+    {"mechanism", WORD_REAL, 3, NULL, NULL, OPTIONAL,
+     "double couple of unit moment, in place of moment: strike (from x towards y), dip, rake, z down "
+     "[degrees]"},
     {"sources", WORD_FILE, 1, NULL, NULL, OPTIONAL,
      "file of point forces or moment tensors, text or HDF5: place, values, amplitude, start"},
     {"velocity", WORD_REAL, 3, NULL, NULL, OPTIONAL,

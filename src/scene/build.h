@@ -103,6 +103,8 @@ void check_half_space(struct builder *builder);
 
 /* frame.c: sets body->frame, pivot and rotated from rotation, low and high. */
 void body_set_frame(struct body *body);
+/* Sine and cosine of an angle in degrees, exact at multiples of 90. */
+void sine_of(double degrees, double *sine, double *cosine);
 
 /* True if a place lies in the body, faces included (to a millionth of the spacing); `nearest` (may be NULL)
  * is then that place, else the nearest one of the box, both in the deck's coordinates. */

@@ -17,8 +17,7 @@ static void multiply(double left[3][3], double right[3][3], double product[3][3]
             product[i][j] = left[i][0] * right[0][j] + left[i][1] * right[1][j] + left[i][2] * right[2][j];
 }
 
-/* Sine and cosine of an angle in degrees, exact at multiples of 90. */
-static void turn(double degrees, double *sine, double *cosine)
+void sine_of(double degrees, double *sine, double *cosine)
 {
     const double quarters = degrees / 90;
     if (quarters == round(quarters)) {
@@ -37,7 +36,7 @@ void body_set_frame(struct body *body)
     double sine[3], cosine[3];
     body->rotated = false;
     for (int c = 0; c < 3; c++) {
-        turn(body->rotation[c], &sine[c], &cosine[c]);
+        sine_of(body->rotation[c], &sine[c], &cosine[c]);
         body->pivot[c] = (body->low[c] + body->high[c]) / 2;
         if (body->rotation[c] != 0) body->rotated = true;
     }

@@ -8,8 +8,8 @@
 struct point_sources take_sources(struct builder *builder, const struct deck_group *group,
                                   enum load_kind kind)
 {
-    static const char *const other_words[] = {"name", "face",   "shape",     "centre",   "depth",
-                                              "size", "moment", "direction", "velocity", NULL};
+    static const char *const other_words[] = {"name",   "face",      "shape",     "centre",   "depth", "size",
+                                              "moment", "mechanism", "direction", "velocity", NULL};
     struct point_sources sources = {0};
     struct messages said = {0};
     if (kind == LOAD_TRACTION) {

@@ -204,7 +204,7 @@ static bool place_inside(struct builder *builder, const struct deck_group *group
 
 static void read_body_force(struct builder *builder, const struct deck_group *group, struct load *load)
 {
-    static const char *const other_words[] = {"face", "size", "moment", "velocity", NULL};
+    static const char *const other_words[] = {"face", "size", "moment", "mechanism", "velocity", NULL};
     static const char *const place_words[] = {"centre", "depth", NULL};
     refuse(builder, group, other_words, kinds[load->kind]);
     load->shape = LOAD_FACE; /* over the whole body */
@@ -222,25 +222,60 @@ static void read_body_force(struct builder *builder, const struct deck_group *gr
     need_direction(builder, group, "direction", kinds[load->kind], load->direction);
 }
 
-static void read_moment(struct builder *builder, const struct deck_group *group, struct load *load)
+/* The unit double couple of a strike (from x towards y), a dip and a rake in degrees, z down (Aki & Richards 2002,
+ * box 4.4). */
+static void couple_of(const double angle[3], double moment[6])
 {
-    static const char *const other_words[] = {"face", "size", "direction", "shape", "velocity", NULL};
-    refuse(builder, group, other_words, kinds[load->kind]);
-    load->shape = LOAD_POINT;
-    place_inside(builder, group, load);
+    double sine[3], cosine[3], sine_2[3], cosine_2[3];
+    for (int i = 0; i < 3; i++) {
+        sine_of(angle[i], &sine[i], &cosine[i]);
+        sine_of(2 * angle[i], &sine_2[i], &cosine_2[i]);
+    }
+    enum { STRIKE, DIP, RAKE };
+    const double along = sine[DIP] * cosine[RAKE], across = sine_2[DIP] * sine[RAKE];
+    const double turned = cosine[DIP] * cosine[RAKE], risen = cosine_2[DIP] * sine[RAKE];
+    moment[0] = -along * sine_2[STRIKE] - across * sine[STRIKE] * sine[STRIKE];
+    moment[1] = along * sine_2[STRIKE] - across * cosine[STRIKE] * cosine[STRIKE];
+    moment[2] = across;
+    moment[3] = along * cosine_2[STRIKE] + across * sine_2[STRIKE] / 2;
+    moment[4] = -turned * sine[STRIKE] + risen * cosine[STRIKE];
+    moment[5] = -turned * cosine[STRIKE] - risen * sine[STRIKE];
+}
+
+static void read_mechanism(struct builder *builder, const struct deck_group *group, double moment[6])
+{
+    const size_t count = deck_values(group, "mechanism");
+    double angle[3];
+    if (deck_given(group, "moment"))
+        complain(builder, group, "mechanism", "expected moment or mechanism, not both");
+    else if (builder->scene->dimension < 3)
+        complain(builder, group, "mechanism", "a mechanism needs scene%%dimension = 3; expected moment");
+    else if (count != 3)
+        complain(builder, group, "mechanism", "mechanism has %zu value%s; expected 3: strike, dip, rake",
+                 count, count == 1 ? "" : "s");
+    for (size_t i = 0; i < 3 && count == 3; i++)
+        angle[i] = deck_real(group, "mechanism", i);
+    if (count == 3 && (angle[1] < 0 || angle[1] > 90))
+        complain(builder, group, "mechanism",
+                 "a dip of %g degrees; expected one in [0, 90]: strike, dip, rake", angle[1]);
+    if (count == 3) couple_of(angle, moment);
+}
+
+static void read_moment(struct builder *builder, const struct deck_group *group, double moment[6])
+{
     const size_t count = deck_values(group, "moment");
     if (count != 6) {
         complain(builder, group, count == 0 ? NULL : "moment",
-                 "a moment tensor has %zu value%s of moment; expected 6: xx yy zz xy yz zx", count,
-                 count == 1 ? "" : "s");
+                 "a moment tensor has %zu value%s of moment; expected 6: xx yy zz xy yz zx%s", count,
+                 count == 1 ? "" : "s", count == 0 ? ", or mechanism: strike, dip, rake" : "");
         return;
     }
     bool zero = true;
     for (size_t i = 0; i < 6; i++) {
-        load->moment[i] = deck_real(group, "moment", i);
-        zero = zero && load->moment[i] == 0;
+        moment[i] = deck_real(group, "moment", i);
+        zero = zero && moment[i] == 0;
         const bool beyond = builder->scene->dimension < 2 ? i > 0 : i == 2 || i > 3;
-        if (builder->scene->dimension < 3 && beyond && load->moment[i] != 0)
+        if (builder->scene->dimension < 3 && beyond && moment[i] != 0)
             complain(builder, group, "moment", "moment has components beyond the scene's %s must be 0",
                      builder->scene->dimension == 1 ? "1 dimension: all but xx"
                                                     : "2 dimensions: zz, yz and zx");
@@ -248,10 +283,22 @@ static void read_moment(struct builder *builder, const struct deck_group *group,
     if (zero) complain(builder, group, "moment", "moment is zero; expected a component that is not");
 }
 
+static void read_moment_tensor(struct builder *builder, const struct deck_group *group, struct load *load)
+{
+    static const char *const other_words[] = {"face", "size", "direction", "shape", "velocity", NULL};
+    refuse(builder, group, other_words, kinds[load->kind]);
+    load->shape = LOAD_POINT;
+    place_inside(builder, group, load);
+    if (deck_given(group, "mechanism"))
+        read_mechanism(builder, group, load->moment);
+    else
+        read_moment(builder, group, load->moment);
+}
+
 static void read_load(struct builder *builder, size_t index, const struct point_sources *sources,
                       struct load *load)
 {
-    static const char *const moment_words[] = {"moment", NULL};
+    static const char *const moment_words[] = {"moment", "mechanism", NULL};
     const struct deck_group *group = deck_get(builder->deck, "load", index);
     load->group = index;
     take_name(builder, group, "name", load->name);
@@ -268,7 +315,7 @@ static void read_load(struct builder *builder, size_t index, const struct point_
     } else if (load->kind == LOAD_BODY_FORCE) {
         read_body_force(builder, group, load);
     } else {
-        read_moment(builder, group, load);
+        read_moment_tensor(builder, group, load);
     }
     take_history(builder, group, kinds[load->kind], &load->history);
 }
