@@ -123,6 +123,11 @@ untold "waves that go a third of their length" check paper.nml method%row_sums=z
 "$selas" -q paper.nml method%row_sums=zero boundary%face=x+ "boundary(2)%face=x-" "boundary(2)%kind=fixed" receiver%position=0,2 >said 2>&1 &&
     awk '!/#/ { for (c = 2; c <= 7; c++) moved = moved || $c != 0 } END { exit moved }' out/r.dat
 verdict "a receiver at a point that a face holds rests (by Eq 38 it moved .6 as far as the points beside)" $?
+# shellcheck disable=SC2086
+"$selas" -q paper.nml $blob scene%end_time=2 output%directory=before >said 2>&1
+# shellcheck disable=SC2086
+told "the state on springs, beside the same run's histories" "waves on the points of variant 'paper' err by up to 1 " check paper.nml $blob \
+    scene%end_time=2 reference%kind=file reference%file=before
 
 # --- Moment tensors that pull across the surface right above ---
 cat >slip.nml <<'END'

@@ -43,7 +43,7 @@ static void look_at_resolution(struct adviser *adviser)
     const struct scene *scene = adviser->scene;
     const double spacing = scene->body.spacing, points = points_per_wavelength(scene);
     const double slowest = slowest_speed(scene);
-    const bool told = scene->reference.kind[0] != '\0'; /* by the exact solution */
+    const bool told = scene_has_exact(scene); /* by the exact solution */
     if (front_jumps(scene) && !scene_driven(scene) && !told && isfinite(slowest) && spacing > 0)
         advise(
             adviser,

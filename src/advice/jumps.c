@@ -226,7 +226,7 @@ void look_at_weights(struct adviser *adviser)
         least = fmin(least, scene->material[m].density);
         most = fmax(most, scene->material[m].density);
     }
-    if (scene->reference.kind[0] != '\0' || !ground_is_general(scene) || !(points > 0)) return;
+    if (scene_has_exact(scene) || !ground_is_general(scene) || !(points > 0)) return;
     for (size_t k = 0; k < scene->body.blocks; k++)
         moduli = fmax(moduli, modulus_jump(scene, &scene->body.block[k]));
     const double near = density_beside(scene);

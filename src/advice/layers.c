@@ -208,7 +208,7 @@ void look_at_rests(struct adviser *adviser)
     const struct scene *scene = adviser->scene;
     struct rest rest;
     char right[48] = "body%low and body%high farther off";
-    if (scene->reference.kind[0] != '\0' || !worst_rest(scene, &rest) || rest.error < REST_SEEN) return;
+    if (scene_has_exact(scene) || !worst_rest(scene, &rest) || rest.error < REST_SEEN) return;
     const bool grows = scene->dimension == 2 && scene->load[rest.load].kind != LOAD_MOMENT_TENSOR;
     if (rest.points > 0) snprintf(right, sizeof right, "boundary%%layer_points = %ld", rest.points);
     advise(
@@ -223,7 +223,7 @@ void look_at_late(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
     char right[48] = "body%low and body%high farther off";
-    const double error = scene->reference.kind[0] != '\0' ? 0 : late_error(scene);
+    const double error = scene_has_exact(scene) ? 0 : late_error(scene);
     if (error < REST_SEEN) return;
     const long points = late_points(scene);
     if (points > 0) snprintf(right, sizeof right, "boundary%%layer_points = %ld", points);

@@ -300,7 +300,7 @@ void look_at_passed(struct adviser *adviser, size_t k)
     double speed = 0.0;
     for (int axis = 0; axis < 3; axis++)
         speed = hypot(speed, load->velocity[axis]);
-    if (!has_patch(load) || speed == 0.0 || scene->reference.kind[0] != '\0') return;
+    if (!has_patch(load) || speed == 0.0 || scene_has_exact(scene)) return;
     const double edge = square ? fmin(load->size[0], load->size[1]) : load->size[0],
                  part = fmin(1.0, scene->body.spacing / edge), mach = speed / slowest_speed(scene),
                  flat = sqrt(fmax(.1, 1 - mach * mach / (.92 * .92)));

@@ -106,9 +106,7 @@ void look_at_soft_layers(struct adviser *adviser)
     const size_t places = scene->loads + scene->receivers, stride = 1 + places / LINES;
     struct soft soft = {.size = 0};
     double sent = 0, received = 0;
-    if (scene->reference.kind[0] != '\0' || !by_general_operator(scene) ||
-        !(points_per_wavelength(scene) > 0))
-        return;
+    if (scene_has_exact(scene) || !by_general_operator(scene) || !(points_per_wavelength(scene) > 0)) return;
     struct line *line = array_new(1, sizeof *line);
     for (size_t n = 0; n < places && line != NULL; n += stride) {
         const bool load = n < scene->loads;

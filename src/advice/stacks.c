@@ -81,7 +81,7 @@ void look_at_stacks(struct adviser *adviser)
     const double points = points_per_wavelength(scene);
     const size_t places = scene->loads + scene->receivers, stride = 1 + places / LINES;
     double size[2] = {0, 0};
-    if (scene->reference.kind[0] != '\0' || !by_general_operator(scene) || !(points > 0)) return;
+    if (scene_has_exact(scene) || !by_general_operator(scene) || !(points > 0)) return;
     for (size_t n = 0; n < places; n += stride)
         for (int axis = 0; axis < scene->dimension; axis++) {
             double place[3] = {0, 0, 0};

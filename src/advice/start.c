@@ -101,7 +101,7 @@ void look_at_short_waves(struct adviser *adviser, const struct model *model)
     if (initial->kind != INITIAL_PLANE_WAVE && initial->kind != INITIAL_GAUSSIAN) return;
     body_from_deck(&scene->body, initial->centre, centre);
     const bool anywhere = initial->kind == INITIAL_PLANE_WAVE, train = anywhere && initial->wavelength > 0;
-    const bool slower = slows_down(scene), told = scene->reference.kind[0] != '\0';
+    const bool slower = slows_down(scene), told = scene_has_exact(scene);
     const double spacing = body_spacing_at(&scene->body, anywhere ? scene->body.high : centre);
     const double wave = shortest_wave(scene, slower, train);
     const double error = train ? 0 : error_of_state(scene, &model->waves, slower);
@@ -208,8 +208,7 @@ void look_at_cut_start(struct adviser *adviser)
     const struct scene *scene = adviser->scene;
     const double width = scene->initial.width;
     if (!body_is_box(&scene->body)) return;
-    if (scene->initial.kind == INITIAL_PLANE_WAVE && scene->reference.kind[0] == '\0')
-        look_at_cut_wave(adviser);
+    if (scene->initial.kind == INITIAL_PLANE_WAVE && !scene_has_exact(scene)) look_at_cut_wave(adviser);
     if (scene->initial.kind != INITIAL_GAUSSIAN) return;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const double away = distance(scene, face);
@@ -262,7 +261,7 @@ void look_at_time_error(struct adviser *adviser, const struct stepper *stepper)
 {
     static const double seen = .02;
     const struct scene *scene = adviser->scene;
-    const bool told = scene->reference.kind[0] != '\0';
+    const bool told = scene_has_exact(scene);
     const bool leapfrog = (stepper->scheme->can & SCHEME_UNWARPS) != 0 && stepper->model->self_adjoint;
     if (!leapfrog || stepper->unwarp || told) return;
     const double omega = fmax(typical_number(scene, 0) * plane_wave_speed(scene), typical_frequency(scene));

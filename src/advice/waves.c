@@ -89,7 +89,7 @@ void look_at_long_way(struct adviser *adviser, const struct model *model)
     static const double seen = .1;
     const struct scene *scene = adviser->scene;
     const struct wave_law law = {.constant = model->waves.sent, .order = model->waves.sent_order};
-    const bool told = scene->reference.kind[0] != '\0' || scene->body.accuracy[0] != '\0' ||
+    const bool told = scene_has_exact(scene) || scene->body.accuracy[0] != '\0' ||
                       points_per_wavelength(scene) < FEWEST_POINTS; /* (advice.c tells) */
     const double slowest = slowest_sent(scene), k = typical_frequency(scene) / slowest;
     if (told || !(scene->body.spacing > 0) || !on_splines(model)) return;
@@ -228,7 +228,7 @@ static double error_of_sent(const struct scene *scene, const struct wave_law *wa
 void look_at_method(struct adviser *adviser, const struct model *model)
 {
     const struct scene *scene = adviser->scene;
-    if (scene->reference.kind[0] != '\0' || !(scene->body.spacing > 0) || on_splines(model)) return;
+    if (scene_has_exact(scene) || !(scene->body.spacing > 0) || on_splines(model)) return;
     const bool papers = strcmp(model->method->variant, "paper") == 0;
     if (papers) look_at_pressed_faces(adviser);
     const double faces =

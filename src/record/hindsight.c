@@ -26,11 +26,6 @@ static const double loss_noted = 0.2;
 /* How much more has to be given before what has arrived is looked at again. */
 static const double more = 1.25;
 
-static bool linear_reference(const struct scene *scene)
-{
-    return scene->reference.kind[0] != '\0' && strcmp(scene->reference.kind, "file") != 0;
-}
-
 /* Strains and rotations grow without bound towards a force or a moment at a point, which stand for what acts on
  * a volume: within a wavelength of one nobody looks. */
 static bool beside_point(const struct scene *scene, double wavelength, const double position[3])
@@ -50,7 +45,7 @@ selas_status hindsight_create(struct recorder *recorder, struct messages *messag
 {
     struct model *model = recorder->model;
     if (recorder->scene->dimension < 2 || recorder->scene->body.shape == BODY_HALF_SPACE ||
-        (!model->small_strain && !model->level_images && !linear_reference(recorder->scene)))
+        (!model->small_strain && !model->level_images && !scene_has_exact(recorder->scene)))
         return SELAS_OK;
     const double wavelength = points_per_wavelength(recorder->scene) * recorder->scene->body.spacing;
     recorder->place = array_new(PLACES, sizeof *recorder->place);
@@ -132,7 +127,7 @@ static void tell_rotation(const struct recorder *recorder, teller *tell, void *c
                  "theory takes "
                  "rotations for small%s; method%%name = 'sph', variant = 'total-lagrangian', law = "
                  "'saint-venant-kirchhoff' would be right",
-                 degrees, watch->strain, linear_reference(scene) ? ", and so does the reference" : "");
+                 degrees, watch->strain, scene_has_exact(scene) ? ", and so does the reference" : "");
     else if (recorder->model->level_images)
         snprintf(text, sizeof text,
                  "parts of the body turn by %.3g degrees, with strains of %.2g: variant 'updated-lagrangian' "

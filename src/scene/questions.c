@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 const struct boundary_meaning *boundary_meaning(const struct boundary *boundary)
 {
@@ -68,6 +69,11 @@ selas_status scene_check_faces(const struct scene *scene, unsigned can, const ch
         return SELAS_UNSUPPORTED;
     }
     return SELAS_OK;
+}
+
+bool scene_has_exact(const struct scene *scene)
+{
+    return scene->reference.kind[0] != '\0' && strcmp(scene->reference.kind, "file") != 0;
 }
 
 bool scene_loads_move(const struct scene *scene)

@@ -346,6 +346,8 @@ unsigned scene_needs(const struct scene *scene);
 /* SELAS_UNSUPPORTED, with the face and its place in the deck, if a face needs more than `who` can do. */
 selas_status scene_check_faces(const struct scene *scene, unsigned can, const char *who,
                                struct messages *messages);
+/* Is there an exact solution that tells the errors? (Histories of a file may be anybody's.) */
+bool scene_has_exact(const struct scene *scene);
 bool scene_loads_move(const struct scene *scene); /* any of them */
 bool scene_driven(const struct scene *scene);     /* a host drives a load or a face */
 /* Loads of the deck; behind them come the pieces of those that a host drives, each within its load. */

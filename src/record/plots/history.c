@@ -73,6 +73,12 @@ static void range_of(const double *a, const double *b, size_t rows, size_t colum
     }
 }
 
+/* What is compared with, in words. */
+static const char *compared(const struct recorder *recorder)
+{
+    return scene_has_exact(recorder->scene) ? "exact" : "reference";
+}
+
 /* The error in words, as in report.txt. */
 static void write_error(const struct recorder *recorder, const double *value, const double *exact,
                         size_t column, char *text, size_t size)
@@ -83,7 +89,7 @@ static void write_error(const struct recorder *recorder, const double *value, co
     const struct misfit *own = &misfit[column - 3];
     const struct misfit *of = misfit_is_small(own, &largest) ? &largest : own;
     if (!(of->l2_of > 0.0) || !(of->linf_of > 0.0))
-        snprintf(text, size, "exact is zero");
+        snprintf(text, size, "%s is zero", compared(recorder));
     else
         snprintf(text, size, "L2 %.3g %%, L∞ %.3g %%%s", 100.0 * own->l2 / of->l2_of,
                  100.0 * own->linf / of->linf_of, of == own ? "" : " of the largest component");
@@ -108,9 +114,9 @@ static void write_panels(FILE *script, const struct recorder *recorder, size_t r
     const size_t c = column - 3;
     if (exact != NULL)
         fprintf(script,
-                "plot $history u 1:%zu w l lc rgb '#f5a742' lw 6 t 'exact', "
+                "plot $history u 1:%zu w l lc rgb '#f5a742' lw 6 t '%s', "
                 "'' u 1:%zu w l lc rgb '#12306b' lw 1.6 t 'computed'\n",
-                5 + 2 * c, 2 + c);
+                5 + 2 * c, compared(recorder), 2 + c);
     else
         fprintf(script, "plot $history u 1:%zu w l lc rgb '#12306b' lw 1.8 t 'computed'\n", 2 + c);
     *top += MAIN + GAP;
@@ -123,8 +129,8 @@ static void write_panels(FILE *script, const struct recorder *recorder, size_t r
     gnuplot_time_axis(script, last, time_unit);
     gnuplot_range(script, range[0], range[1], DIFFERENCE_TICS);
     fprintf(script, "set ylabel 'difference'\n");
-    fprintf(script, "plot $history u 1:%zu w l lc rgb '#b3202c' lw 1.4 t 'computed - exact: %s'\n", 6 + 2 * c,
-            error);
+    fprintf(script, "plot $history u 1:%zu w l lc rgb '#b3202c' lw 1.4 t 'computed - %s: %s'\n", 6 + 2 * c,
+            compared(recorder), error);
     *top += DIFFERENCE + GAP;
 }
 
