@@ -174,6 +174,7 @@ static selas_simulation *open(const struct task *task, struct outcome *o, char *
     o->status = deck_read_file(task->path, 0, NULL, &edit.deck, &edit.messages);
     edit.good = o->status == SELAS_OK;
     set(&edit, "output%%plots=F");
+    set(&edit, "output%%history_step="); /* each step, as relations count them */
     if (task->dt > 0) {
         const struct deck_group *stepping = group(&edit, "stepping", 0);
         if (edit.good && (deck_given(stepping, "courant") || deck_given(stepping, "safety")))
