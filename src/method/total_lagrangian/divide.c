@@ -87,22 +87,37 @@ static void cut_all(const struct tl_model *tl, struct standing *standing, struct
     }
 }
 
+/* Layers behind a face with a damper belong to the rank of the first one. */
+static void keep_layers(const struct tl_model *tl, uint32_t *rank)
+{
+    for (size_t k = 0; k < tl->dampers.count; k++) {
+        const struct tl_damper *damper = &tl->dampers.damper[k];
+        for (size_t l = 1; l < damper->layers; l++)
+            rank[tl_layer(damper, l)] = rank[damper->point];
+    }
+}
+
 static bool divide_all(struct tl_model *tl, size_t ranks)
 {
-    struct standing *standing = array_new(tl->cloud->points, sizeof *standing);
+    const size_t n = tl->cloud->points;
+    struct standing *standing = array_new(n, sizeof *standing);
     struct piece *piece = array_new(ranks, sizeof *piece);
-    bool *mark = array_new(tl->cloud->points, sizeof *mark);
-    bool room = standing != NULL && piece != NULL && mark != NULL;
+    uint32_t *rank = array_new(n, sizeof *rank);
+    bool *mark = array_new(n, sizeof *mark);
+    bool room = standing != NULL && piece != NULL && rank != NULL && mark != NULL;
     if (room) cut_all(tl, standing, piece, ranks);
-    for (size_t p = 0; room && p < ranks; p++) {
+    for (size_t p = 0; room && p < ranks; p++)
         for (size_t k = piece[p].from; k < piece[p].from + piece[p].count; k++)
-            mark[standing[k].point] = true;
-        room = tl_set_marked(mark, tl->cloud->points, &tl->part.owned[piece[p].rank]);
-        for (size_t k = piece[p].from; k < piece[p].from + piece[p].count; k++)
-            mark[standing[k].point] = false;
+            rank[standing[k].point] = (uint32_t)piece[p].rank;
+    if (room) keep_layers(tl, rank);
+    for (size_t r = 0; room && r < ranks; r++) {
+        for (size_t i = 0; i < n; i++)
+            mark[i] = rank[i] == r;
+        room = tl_set_marked(mark, n, &tl->part.owned[r]);
     }
     array_free(standing);
     array_free(piece);
+    array_free(rank);
     array_free(mark);
     return room;
 }

@@ -75,15 +75,6 @@ static void add_power(const struct tl_model *tl, const double *force, const doub
             *sum += force[k] * v[k];
 }
 
-static void add_damping(const struct tl_model *tl, const double *v, double *sum)
-{
-    const size_t d = (size_t)tl->cloud->dimension;
-    const struct tl_set *own = &tl->part.own;
-    for (size_t r = 0; r < own->count; r++)
-        for (size_t k = d * own->range[r].from; k < d * own->range[r].end; k++)
-            *sum += tl->damper[k] * v[k] * v[k];
-}
-
 void tl_power(struct model *model, const struct drive *drive, const double *y, double *load, double *absorbed)
 {
     struct tl_model *tl = (struct tl_model *)model;
@@ -105,7 +96,7 @@ void tl_power(struct model *model, const struct drive *drive, const double *y, d
         add_power(tl, tl->force, v, &viscous);
         *absorbed = -viscous;
     }
-    if (tl->damper != NULL) add_damping(tl, v, absorbed);
+    *absorbed += tl_damped(tl, v);
     memset(tl->force, 0, n * sizeof *tl->force);
     tl_add_loads(tl, drive);
     add_power(tl, tl->force, v, load);

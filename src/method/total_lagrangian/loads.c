@@ -1,4 +1,4 @@
-/* Loads and dampers of total-Lagrangian SPH. Forces at a place and moment tensors work on the moving-least-squares
+/* Loads of total-Lagrangian SPH. Forces at a place and moment tensors work on the moving-least-squares
  * value and gradient there: f_i = w_i(x) P, f_i = M grad w_i(x), which keeps force and moment. */
 #include "method/total_lagrangian/total_lagrangian.h"
 
@@ -193,50 +193,4 @@ selas_status tl_make_loads(struct tl_model *tl, struct messages *messages)
     }
     array_free(gather.force);
     return status;
-}
-
-/* Between a point and the face lies matter whose inertia the point has, but whose compliance nothing has. Behind a
- * damper of a part f of rho c it would pass for the mass (1 - f^2) rho times its length
- * (doc/theory/sph-total-lagrangian.md, Eq 4a). */
-static void drop_inertia(struct tl_model *tl, const struct face_element *element, size_t i)
-{
-    static const double least = 0.25;
-    const struct boundary *boundary = &tl->model.scene->boundary[element->face];
-    const double part = fmin(1, fmin(boundary->normal_factor, boundary->shear_factor));
-    double depth = 0;
-    for (size_t a = 0; a < (size_t)tl->cloud->dimension; a++)
-        depth += element->normal[a] * (element->position[a] - tl->cloud->position[3 * i + a]);
-    tl->mass[i] *= fmax(least, 1 - part * part * element->area * depth / tl->cloud->volume[i]);
-}
-
-/* Lysmer & Kuhlemeyer 1969: traction = -rho c v on the point nearest to each surface element. */
-selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages)
-{
-    const struct scene *scene = tl->model.scene;
-    const size_t d = (size_t)scene->dimension;
-    for (int face = 0; face < 2 * scene->dimension; face++) {
-        if (!boundary_absorbs(&scene->boundary[face])) continue;
-        const selas_status known = tl_need_surface(tl, (enum face)face, messages);
-        if (known != SELAS_OK) return known;
-    }
-    for (size_t e = 0; e < tl->cloud->elements; e++) {
-        const struct face_element *element = &tl->cloud->element[e];
-        if (element->face >= FACES) continue;
-        const struct boundary *boundary = &scene->boundary[element->face];
-        if (!boundary_damps(boundary)) continue;
-        if (tl->damper == NULL) tl->damper = array_new(d * tl->cloud->points, sizeof(double));
-        if (tl->damper == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for dampers");
-        const size_t i = neighbours_nearest(&tl->near, element->position);
-        if (i >= tl->cloud->points) continue;
-        const struct material *material = tl->material[i];
-        for (size_t a = 0; a < d; a++) {
-            const double normal = element->normal[a] * element->normal[a];
-            const double speed = normal * boundary->normal_factor * material->p_speed +
-                                 (1 - normal) * boundary->shear_factor * material->s_speed;
-            tl->damper[d * i + a] += element->area * material->density * speed;
-        }
-        drop_inertia(tl, element, i);
-    }
-    tl->model.damped = tl->damper != NULL;
-    return SELAS_OK;
 }

@@ -188,7 +188,8 @@ selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
         array_free(reach.window);
     }
     return ranks_agree(tl->part.ranks,
-                       room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ranks"),
+                       room ? tl_keep_dampers(tl, messages)
+                            : fail(messages, SELAS_NO_MEMORY, "no memory for the ranks"),
                        messages);
 }
 

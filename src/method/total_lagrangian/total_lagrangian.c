@@ -51,7 +51,7 @@ void tl_free(struct tl_model *tl)
                             tl->force_blocks.block,
                             tl->all_gradients.block,
                             tl->mass,
-                            tl->damper,
+                            tl->dampers.damper,
                             tl->held,
                             (void *)tl->material,
                             tl->elastic,
@@ -90,15 +90,13 @@ static void accelerate(struct model *model, const struct drive *drive, double ha
     const size_t d = (size_t)tl->cloud->dimension;
     const struct tl_set *own = &tl->part.own;
     all_forces(tl, drive, u, v);
+    tl_damp(tl, half_step, v);
     tl_keep_window(tl, a);
 #pragma omp parallel for schedule(static) if (own->points > TL_SERIAL)
     for (size_t r = 0; r < own->count; r++)
         for (size_t i = own->range[r].from; i < own->range[r].end; i++)
-            for (size_t k = d * i; k < d * (i + 1); k++) {
-                const double damper = tl->damper != NULL ? tl->damper[k] : 0;
-                const double force = damper > 0 && v != NULL ? tl->force[k] - damper * v[k] : tl->force[k];
-                a[k] = force / (tl->mass[i] + half_step * damper);
-            }
+            for (size_t k = d * i; k < d * (i + 1); k++)
+                a[k] = tl->force[k] / tl->mass[i];
     for (size_t k = 0; k < tl->held_count; k++)
         a[tl->held[k]] = 0;
     tl_exchange(tl, a);
@@ -264,7 +262,7 @@ static void fill_model(struct tl_model *tl)
     if (tl->part.ranks != NULL) model->whole_unknowns = d * model->points;
     model->component_stride = 1;
     model->point_stride = d;
-    model->damped = tl->damper != NULL || viscous;
+    model->damped = tl->dampers.damper != NULL || viscous;
     model->self_adjoint = true;
     model->small_strain = tl->options.law == LAW_LINEAR;
     if (model->scene->body.rotated) model->frame = model->scene->body.frame;

@@ -109,6 +109,25 @@ struct tl_load {
     double *force; /* [dimension * count], amplitude included */
 };
 
+/* Dampers pull at a point, and at `layers` of them, `step` apart, with the weights. */
+enum { TL_LAYERS = 16 };
+struct tl_damper {
+    size_t point, layers;
+    ptrdiff_t step;
+    const double *weight;
+    double impedance[3]; /* of the components, times the area */
+};
+static inline size_t tl_layer(const struct tl_damper *damper, size_t layer)
+{
+    return (size_t)((ptrdiff_t)damper->point + (ptrdiff_t)layer * damper->step);
+}
+struct tl_dampers {
+    size_t count;
+    struct tl_damper *damper;
+    size_t layers[FACES]; /* of a lattice behind each face with dampers */
+    double weight[FACES][TL_LAYERS];
+};
+
 /* What goes to another rank and what comes from it. */
 struct tl_halo {
     struct tl_set give, get;
@@ -155,13 +174,13 @@ struct tl_model {
     uint32_t *returned;        /* ... stand in here */
     /* of the points, the last of the sites; on ranks those that the own points need */
     struct tl_blocks gradient_blocks, stress_blocks, force_blocks;
-    struct tl_blocks all_gradients;   /* of points that every rank has; else empty */
-    struct tl_rows pair;              /* hourglass: rows of points over points, weight = stiffness, width 1 */
-    struct tl_rows viscous;           /* rows of points over sites, m_i m_j |W'| and h_ij, width 2 */
-    double *mass;                     /* [points] */
-    double *spacing;                  /* [points] of the points around each */
-    size_t held_count, *held;         /* numbers of u that rest (cloud method) */
-    double *damper;                   /* [dimension * points] or NULL */
+    struct tl_blocks all_gradients; /* of points that every rank has; else empty */
+    struct tl_rows pair;            /* hourglass: rows of points over points, weight = stiffness, width 1 */
+    struct tl_rows viscous;         /* rows of points over sites, m_i m_j |W'| and h_ij, width 2 */
+    double *mass;                   /* [points] */
+    double *spacing;                /* [points] of the points around each */
+    size_t held_count, *held;       /* numbers of u that rest (cloud method) */
+    struct tl_dampers dampers;
     const struct material **material; /* [points] */
     struct elastic *elastic;          /* [points] */
     struct tl_load *load;             /* [scene->loads] */
@@ -251,13 +270,20 @@ size_t tl_lattice_probe(const struct tl_model *tl, const double place[3], bool g
 bool tl_on_mirror(const struct tl_model *tl, const double place[3], int axis);
 /* tractions.c. Fails if no element of the surface lies on a face. */
 selas_status tl_need_surface(const struct tl_model *tl, enum face face, struct messages *messages);
+/* Forces of the uniform stress -direction x normal, into tl->force. */
+void tl_uniform_stress(struct tl_model *tl, const double direction[3], enum face face);
 /* Adds the forces of a load on a face of the box. */
 selas_status tl_traction_on_box(struct tl_model *tl, const struct load *load, const double centre[3],
                                 const double direction[3], double *forces, struct messages *messages);
 /* loads.c, probes.c */
 enum { TL_PROBE_ROOM = 512 };
 selas_status tl_make_loads(struct tl_model *tl, struct messages *messages);
+/* dampers.c */
 selas_status tl_make_dampers(struct tl_model *tl, struct messages *messages);
+selas_status tl_keep_dampers(struct tl_model *tl, struct messages *messages); /* those of own points */
+/* Adds their forces to tl->force, which has all others. Velocities v (NULL: 0) go on for half a step. */
+void tl_damp(struct tl_model *tl, double half_step, const double *v);
+double tl_damped(const struct tl_model *tl, const double *v); /* the power that they take */
 /* How far from a place the points are at most that tl_probe() takes. */
 double tl_probe_radius(const struct tl_model *tl);
 selas_status tl_probe(struct tl_model *tl, const double body_position[3], size_t *count, size_t *index,

@@ -75,8 +75,7 @@ selas_status tl_need_surface(const struct tl_model *tl, enum face face, struct m
         face_name(face), cloud_filling(tl->cloud, &tl->model.scene->body));
 }
 
-/* Forces of the uniform stress -direction x normal, into tl->force. */
-static void uniform_stress(struct tl_model *tl, const double direction[3], enum face face)
+void tl_uniform_stress(struct tl_model *tl, const double direction[3], enum face face)
 {
     const size_t d = (size_t)tl->cloud->dimension;
     const size_t axis = (size_t)face_axis(face);
@@ -179,7 +178,7 @@ selas_status tl_traction_on_box(struct tl_model *tl, const struct load *load, co
     struct patch patch = {load, centre, direction, forces, {0}, 0};
     const selas_status known = tl_need_surface(tl, load->face, messages);
     if (known != SELAS_OK) return known;
-    uniform_stress(tl, direction, load->face);
+    tl_uniform_stress(tl, direction, load->face);
     double sum = tl_sum_in_order(tl, add_covered, &patch);
     /* what patches that cut points and scattered points lose or win */
     const double part = free_part(tl->model.scene, load->face, direction, patch.free);
