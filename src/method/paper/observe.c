@@ -3,8 +3,10 @@
  *
  * Eq 38 takes the computed values as smoothed ones, <u>, and sharpens them:
  *
- *   u_a = (<u>_a - sum over b /= a of alpha_a W_ab V_b <u>_b) / (alpha_a W(0) V_a)
+ *   u_a = (s_a <u>_a - sum over b /= a of alpha_a W_ab V_b <u>_b) / (alpha_a W(0) V_a)
  *
+ * with s_a the sum over all b, a too, of alpha_a W_ab V_b, 1 but in the second layer (as printed 1 there, too, where
+ * a body that moves as a whole would be seen to be torn: doc/theory/paper-method.md).
  * What faces prescribe is no smoothed value, and stays as it is.
  *
  * Between points the values are blended from first-order expansions about the points around (modified
@@ -85,7 +87,7 @@ static double sharpening(const struct paper *paper, size_t a, size_t p)
     if (!paper->options.deconvolution || paper->told[a]) return self ? 1 : 0;
     const double centre = paper->alpha[a] * paper->volume[a] *
                           kernel_value(paper->options.kernel, paper->dimension, 0, paper->h);
-    return (self ? 1 : -paper->alpha[a] * paper->kernel_volume[p]) / centre;
+    return (self ? paper->whole[a] : -paper->alpha[a] * paper->kernel_volume[p]) / centre;
 }
 
 /* Dense weights while a probe is being put together: value and gradient, [4 * points]. */

@@ -167,6 +167,7 @@ static void destroy(struct model *model)
     neighbours_free(&paper->near);
     array_free(paper->volume);
     array_free(paper->alpha);
+    array_free(paper->whole);
     array_free(paper->kernel_volume);
     array_free(paper->block);
     array_free(paper->element);

@@ -68,6 +68,7 @@ struct paper {
     struct neighbours near; /* pairs within the support, each point among its own */
     double *volume;         /* [points], Eq 25 */
     double *alpha;          /* [points], Eq 29 (1 inside) */
+    double *whole;          /* [points]: alpha_a times the sum of W_ab V_b */
     double *kernel_volume;  /* [pairs]: W_ab V_b without alpha */
     double *block;          /* [dimension^2 * pairs]: row a, column b of K V + Gamma A */
 

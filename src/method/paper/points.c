@@ -109,6 +109,7 @@ static void set_correction(struct paper *paper)
         }
         const bool corrected = paper->options.kernel_correction && paper->set.faces[a] != 0;
         paper->alpha[a] = corrected ? 1 / sum : 1;
+        paper->whole[a] = corrected ? 1 : sum;
     }
 }
 
@@ -121,8 +122,9 @@ selas_status paper_make_statistics(struct paper *paper, struct messages *message
     if (status != SELAS_OK) return status;
     paper->volume = array_new(points, sizeof *paper->volume);
     paper->alpha = array_new(points, sizeof *paper->alpha);
+    paper->whole = array_new(points, sizeof *paper->whole);
     paper->kernel_volume = array_new(paper->near.start[points], sizeof *paper->kernel_volume);
-    if (paper->volume == NULL || paper->alpha == NULL || paper->kernel_volume == NULL)
+    if (paper->volume == NULL || paper->alpha == NULL || paper->whole == NULL || paper->kernel_volume == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the volumes of %zu points", points);
     set_volumes(paper);
     set_areas(paper);
