@@ -70,3 +70,36 @@ cat >"$work/block.nml" <<'D'
 D
 "$build/selas" -q "$work/block.nml" output%directory="$out" >"$out.log" 2>&1 || cat "$out.log" >&2
 below "an S pulse in a block sends nothing back" "$(awk '!/^#/ { if ($2^2 > most) most = $2^2 } END { print sqrt(most) }' "$out/behind.dat")" 1e-3
+
+# In layers a pulse goes on in the rock that it begins in, too. Once in the layer above it goes to and fro (impedances Z
+# there, Z' below): u = 2 t (f(c' (t - t0)) + r f(c' (t - t0 - 2 d / c)) + ...) at the surface, t = 2 Z' / (Z + Z'),
+# r = (Z - Z') / (Z + Z'), d the layer's thickness, t0 the time to the surface.
+cat >"$work/layers.nml" <<'D'
+&scene dimension = 2, end_time = 14 /
+&material name = 'soil', density = 1, s_speed = 0.5, p_speed = 1 /
+&material name = 'rock', density = 1.2, s_speed = 1.2, p_speed = 2.1 /
+&body material = 'rock', low = 0, 0, high = 0.4, 8.2, spacing = 0.1 /
+&layer material = 'soil', top = 0 /
+&layer material = 'rock', top = 1 /
+&boundary face = 'y+', kind = 'transmitting', layer = 'lysmer' /
+&boundary face = 'x-', 'x+', kind = 'displacement', direction = 0, 1, slip = .true., amplitude = 0, history = 'step' /
+&initial kind = 'plane-wave', wave = 's', direction = 0, -1, polarisation = 1, 0, centre = 0, 4.6, width = 1, amplitude = 1 /
+&receiver name = 'top', position = 0.2, 0 /
+&output plots = F /
+D
+to_and_fro() { # to_and_fro C C' Z Z' D T0 COLUMN: relative L2 of the displacement at the surface
+    awk -v c="$1" -v below="$2" -v soft="$3" -v hard="$4" -v d="$5" -v first="$6" -v column="$7" '!/^#/ {
+        t = 2 * hard / (soft + hard); r = (soft - hard) / (soft + hard); u = 0
+        for (n = 0; n < 9; n++) u += 2 * t * r ^ n * exp(-(below * ($1 - first - 2 * n * d / c)) ^ 2 / 2)
+        wrong += ($column - u) ^ 2; all += u * u } END { print sqrt(wrong / all) }' "$out/top.dat"
+}
+for operator in layered general; do
+    "$build/selas" -q "$work/layers.nml" output%directory="$out" method%operator=$operator >"$out.log" 2>&1 || cat "$out.log" >&2
+    below "an S pulse from the rock into a layer, operator $operator" "$(to_and_fro .5 1.2 .5 1.44 1 5 2)" 4e-3
+done
+sed -e 's/dimension = 2, end_time = 14/dimension = 3, end_time = 8/' -e 's/low = 0, 0, high = 0.4, 8.2/low = 3*0, high = 0.3, 0.3, 8.2/' \
+    -e "s/'y+'/'z+'/" -e "s/&boundary face = 'x-.*/\&boundary face = 'x-', 'x+', 'y-', 'y+', kind = 'roller' \//" \
+    -e "s/wave = 's', direction = 0, -1, polarisation = 1, 0, centre = 0, 4.6/direction = 0, 0, -1, centre = 0, 0, 4.6/; s/amplitude = 1 /amplitude = -1 /" \
+    -e 's/position = 0.2, 0/position = 0.1, 0.1, 0/' "$work/layers.nml" >"$work/space.nml"
+"$build/selas" -q "$work/space.nml" output%directory="$out" >"$out.log" 2>&1 || cat "$out.log" >&2
+below "a P pulse in space" "$(to_and_fro 1 2.1 1 2.52 1 2.7142857 4)" 4e-3

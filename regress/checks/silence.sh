@@ -983,6 +983,26 @@ untold "one that does not" check lies.nml
 untold "one that reaches a block of nearly the same rock" check lies.nml initial%centre=-0.8,0 'material(2)%density=1' \
     'material(2)%p_speed=1.81' 'material(2)%s_speed=1'
 told "a pulse through a block" "$across" check lies.nml initial%kind=plane-wave initial%centre=1,0
+told "a pulse across level layers" "$across.*may err by about 0.31 there" check lies.nml initial%kind=plane-wave \
+    initial%direction=0,1 initial%centre=0,1 layer%material=soft layer%top=0 'layer(2)%material=rock' 'layer(2)%top=2'
+# Below a canyon, wherever the centre of a plane wave's front is named: untold, velocities at its floor err by .28 to .8
+cat >canyon.nml <<'END'
+&scene dimension = 2, end_time = 4 /
+&material name = 'rock', density = 1.0, p_speed = 1.7, s_speed = 1 /
+&body material = 'rock', shape = 'box', low = -4, 0, high = 4, 6, spacing = 0.1 /
+&topography shape = 'canyon', height = 1, width = 0.8, centre = 0 /
+&boundary face = 'y+', kind = 'transmitting', layer = 'lysmer' /
+&boundary face = 'x-', 'x+', kind = 'roller' /
+&initial kind = 'plane-wave', direction = 0, -1, centre = 3.9, 1.7, width = 0.4, amplitude = 1 /
+&receiver name = 'floor', position = 0, depth = 0 /
+END
+cut="face y-, free, cuts the plane wave of t = 0"
+told "a pulse right below a canyon" "$cut" check canyon.nml
+told "one three widths below it" "$cut" check canyon.nml initial%centre=3.9,2.2
+untold "one four widths below it" check canyon.nml initial%centre=3.9,2.6 body%spacing=.0625
+told "a state three widths below its floor" "reaches face y-, 3 widths away and free" check canyon.nml initial%kind=gaussian initial%centre=0,2.2
+told "one beside its flank, nearer than the ground above" "reaches face y-, 2.[0-9]* widths away and free" \
+    check canyon.nml initial%kind=gaussian initial%centre=1.2,1.5
 # --- Depths below a hill or canyon are true ones ---
 cat >below.nml <<'END'
 &scene dimension = 2, end_time = 1 /

@@ -445,6 +445,12 @@ static void settings(void **unused)
          "&initial kind='plane-wave', wave='p', direction=1, centre=1, wavelength=.5, amplitude=1 /\n",
          "t.nml:1:33: error:",
          {"no table of errors", "plane pulses"}},
+        {"&scene dimension=2, end_time=6, accuracy=.01 /\n" ROCK
+         "&body material='rock', shape='box', low=0,0, high=1,8 /\n&receiver name='r', position=.5,3 /\n"
+         "&block material='rock', centre=.5,1, size=1,1 /\n"
+         "&initial kind='plane-wave', wave='p', direction=0,1, centre=0,4, width=.5, amplitude=1 /\n",
+         "t.nml:1:33: error:",
+         {"no table of errors", "a body of one rock"}},
         {ACCURATE
          "&receiver name='r', position=1,0,0 /\n&load face='z-', shape='square', centre=0,0,0, size=1,1, "
          "velocity=.1,0,0, direction=0,0,1, history='gaussian', width=.3, delay=2 /\n",
@@ -511,10 +517,6 @@ static void initial_states(void **unused)
         {BAR "&initial kind='plane-wave', wave='s', direction=1, wavelength=1, amplitude=1 /\n",
          "t.nml:4:29: error:",
          {"no S waves in one dimension"}},
-        {BOX "&layer material='rock', top=1 /\n&initial kind='plane-wave', direction=1,0,0, wavelength=1, "
-             "amplitude=1 /\n",
-         "t.nml:5:10: error:",
-         {"not layers"}},
         {BOX "&initial kind='gaussian', centre=1,1,1, width=1, direction=1,0,0 /\n",
          "t.nml:4:1: error:",
          {"needs amplitude"}},

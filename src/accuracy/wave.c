@@ -12,6 +12,7 @@
 #include "accuracy/arrivals.h"
 #include "accuracy/kinds.h"
 #include "base/memory.h"
+#include "scene/ground.h"
 #include "scene/initial.h"
 
 #include <math.h>
@@ -31,6 +32,7 @@ static bool looks_like(const struct scene *scene)
 static const char *refusal(const struct scene *scene)
 {
     if (scene->receivers == 0) return "scenes with receivers, where the error is taken";
+    if (scene->body.layers > 0 || ground_is_general(scene)) return "plane waves in a body of one rock";
     if (scene->initial.kind == INITIAL_PLANE_WAVE) {
         double direction[3];
         body_direction_from_deck(&scene->body, scene->initial.direction, direction);

@@ -3,15 +3,55 @@
 
 #include "scene/initial.h"
 #include "scene/resolution.h"
+#include "scene/topography.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Distance of a face from the centre of the state, along the face's normal. */
+/* A true place of a face, parts of its edges from its low corner along the other two axes. */
+static void place_on_face(const struct scene *scene, int face, const double part[2], double place[3])
+{
+    const struct body *body = &scene->body;
+    const struct topography *topography = body->topography;
+    for (int axis = 0, other = 0; axis < 3; axis++) {
+        const double low = body->low[axis], high = body->high[axis];
+        place[axis] = axis == face / 2          ? face_plane(body, (enum face)face)
+                      : axis < scene->dimension ? low + part[other++] * (high - low)
+                                                : 0;
+    }
+    if (topography == NULL) return;
+    double *down = &place[topography->axis];
+    *down = topography_real(topography, topography_drop(topography, place), *down);
+}
+
+/* How far the surface of a hill or canyon lies above the state's centre, at the nearest place; below it: negative. */
+static double distance_of_surface(const struct scene *scene, const double centre[3])
+{
+    enum { LOOKS = 16 };
+    const struct topography *topography = scene->body.topography;
+    const int down = topography->axis, rows = down == 2 ? LOOKS : 0;
+    const double step = STATE_REACH * scene->initial.width / LOOKS;
+    const double above =
+        centre[down] - topography_real(topography, topography_drop(topography, centre), topography->plane);
+    double nearest = fabs(above);
+    for (int i = -LOOKS; i <= LOOKS; i++)
+        for (int j = -rows; j <= rows; j++) {
+            const double aside[2] = {i * step, j * step};
+            const double place[2] = {centre[0] + aside[0], centre[1] + aside[1]};
+            const double surface =
+                topography_real(topography, topography_drop(topography, place), topography->plane);
+            nearest = fmin(nearest, hypot(hypot(aside[0], aside[1]), surface - centre[down]));
+        }
+    return above < 0 ? -nearest : nearest;
+}
+
+/* Distance of a face from the centre of the state, along the face's normal; the least of a surface not level. */
 static double distance(const struct scene *scene, int face)
 {
+    const struct topography *topography = scene->body.topography;
     double centre[3];
-    body_from_deck(&scene->body, scene->initial.centre, centre);
+    ground_from_deck(&scene->body, scene->initial.centre, centre);
+    if (topography != NULL && face == 2 * topography->axis) return distance_of_surface(scene, centre);
     return face_sign((enum face)face) * (face_plane(&scene->body, (enum face)face) - centre[face / 2]);
 }
 
@@ -141,6 +181,7 @@ static const char *cut_by(const struct scene *scene, int face)
 /* Does a plane wave go by a face, or not reach it at t = 0? */
 static bool suits(const struct scene *scene, int face)
 {
+    enum { LOOKS = 32 };
     const struct initial *initial = &scene->initial;
     const struct boundary *boundary = &scene->boundary[face];
     const struct body *body = &scene->body;
@@ -148,22 +189,23 @@ static bool suits(const struct scene *scene, int face)
     double direction[3], motion[3], centre[3], least = INFINITY, most = -INFINITY;
     body_direction_from_deck(body, initial->direction, direction);
     body_direction_from_deck(body, initial->shear ? initial->polarisation : initial->direction, motion);
-    body_from_deck(body, initial->centre, centre);
+    ground_from_deck(body, initial->centre, centre);
     if (fabs(direction[axis]) < 1e-9 && fabs(motion[axis]) < 1e-9)
         return boundary_slides(boundary) || (initial->shear && boundary_is_free(boundary));
     if (fabs(direction[axis]) < 1e-9)
         return boundary_moves(boundary) && boundary->slip && !face_holds(scene, (enum face)face, axis);
     if (initial->wavelength > 0)
         return boundary_moves(boundary) && boundary->slip; /* what it holds is not looked at */
-    for (int corner = 0; corner < 8; corner++) {
-        double s = 0;
-        for (int c = 0; c < scene->dimension; c++) {
-            const bool high = c == axis ? face % 2 != 0 : (corner & 1 << c) != 0;
-            s += direction[c] * ((high ? body->high[c] : body->low[c]) - centre[c]);
+    for (int i = 0; i <= LOOKS; i++)
+        for (int j = 0; j <= LOOKS; j++) {
+            const double part[2] = {(double)i / LOOKS, (double)j / LOOKS};
+            double place[3] = {0, 0, 0}, s = 0;
+            place_on_face(scene, face, part, place);
+            for (int c = 0; c < 3; c++)
+                s += direction[c] * (place[c] - centre[c]);
+            least = fmin(least, s);
+            most = fmax(most, s);
         }
-        least = fmin(least, s);
-        most = fmax(most, s);
-    }
     return least > STATE_REACH * initial->width || most < -STATE_REACH * initial->width;
 }
 

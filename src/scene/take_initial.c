@@ -78,8 +78,6 @@ static void take_plane_wave(struct builder *builder, const struct deck_group *gr
         need_vector(builder, group, "centre", "a pulse", initial->centre);
     else
         take_vector(builder, group, "centre", initial->centre);
-    if (deck_count(builder->deck, "layer") > 0)
-        complain(builder, group, "kind", "plane waves need a body of one material, not layers");
 }
 
 static void take_gaussian(struct builder *builder, const struct deck_group *group, struct initial *initial)
