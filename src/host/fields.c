@@ -53,8 +53,10 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
     }
     host_looks_at_all(simulation);
     state_settle(simulation->stepper, &simulation->state, field == SELAS_ACCELERATION);
+    state_show(simulation->stepper, &simulation->state, true);
     model->core->field(model, field, simulation->state.y, simulation->state.a, 0, model->points,
                        simulation->values);
+    state_show(simulation->stepper, &simulation->state, false);
     *count = model->points;
     *components = width;
     *value = simulation->values;
@@ -74,7 +76,9 @@ selas_status selas_energy(selas_simulation *simulation, double *kinetic, double 
         return fail(&simulation->messages, SELAS_UNSUPPORTED, "this method knows no energy");
     struct energy energy = {0};
     state_settle(simulation->stepper, &simulation->state, false);
+    state_show(simulation->stepper, &simulation->state, true);
     model->core->energy(model, simulation->state.y, &energy);
+    state_show(simulation->stepper, &simulation->state, false);
     *kinetic = energy.kinetic;
     *strain = energy.strain;
     return SELAS_OK;

@@ -87,14 +87,14 @@ static bool looked_at(const struct recorder *recorder, const struct state *state
 /* Returns whether it did, for hide(). */
 static bool show(const struct recorder *recorder, const struct state *state)
 {
-    const bool shown = recorder->stepper->scheme->show != NULL && looked_at(recorder, state);
-    if (shown) recorder->stepper->scheme->show(recorder->stepper, state, true);
+    const bool shown = looked_at(recorder, state);
+    if (shown) state_show(recorder->stepper, state, true);
     return shown;
 }
 
 static void hide(const struct recorder *recorder, const struct state *state, bool shown)
 {
-    if (shown) recorder->stepper->scheme->show(recorder->stepper, state, false);
+    if (shown) state_show(recorder->stepper, state, false);
 }
 
 /* Profiles, and then the watch, which may settle the state. */
@@ -188,8 +188,10 @@ void recorder_value(struct recorder *recorder, size_t receiver, selas_field fiel
 {
     const struct probe *probe = &recorder->trace[receiver].probe;
     struct ranks *ranks = recorder->scene->ranks;
+    state_show(recorder->stepper, state, true);
     if (probe->holder == ranks_me(ranks))
         model_observe(recorder->model, probe, field, state->y, state->a, value);
+    state_show(recorder->stepper, state, false);
     ranks_spread(ranks, probe->holder, value, (size_t)field_components(field) * sizeof *value);
 }
 

@@ -26,6 +26,11 @@ void state_settle(const struct stepper *stepper, const struct state *state, bool
     model->one_pass->settle(model, &drive, stepper->dt, state->y, acceleration ? state->a : NULL);
 }
 
+void state_show(const struct stepper *stepper, const struct state *state, bool shown)
+{
+    if (stepper->scheme->show != NULL) stepper->scheme->show(stepper, state, shown);
+}
+
 void state_free(struct state *state)
 {
     array_free(state->y);

@@ -113,6 +113,9 @@ void state_free(struct state *state);
 /* Makes all of y right, and of a if wanted, where the model makes whole steps (model.h); else nothing. To be
  * called before anything but probes and the power of loads is looked at. */
 void state_settle(const struct stepper *stepper, const struct state *state, bool acceleration);
+/* Gives the state velocities of the scheme's order, for who looks at it; then (`shown` is false) those that it goes on
+ * with. */
+void state_show(const struct stepper *stepper, const struct state *state, bool shown);
 
 /* stepping/spectrum.c: largest frequency (rad per time) of the undamped operator; *error gets a bound on its
  * relative error or 0. */
