@@ -118,19 +118,49 @@ static void reading_goes_on_after_errors(void **state)
            "f:5:35: error: expected a real number, found '0x1'\n");
 }
 
+static void what_stands_outside_of_groups_is_told(void **state)
+{
+    (void)state;
+    expect("&one x = 1/4, list = 2 /\n", "f:1:11: error: this '/' ends &one, and '4, list = 2 /' behind it "
+                                         "is not read; expected a fraction as one "
+                                         "number, 0.25, or a comment with '!'\n");
+    expect("&one x = 1 /\n flag = T, list = 2 /\n", "f:2:2: error: this stands outside of a group and would "
+                                                    "not be read: &one has ended; take the '/' or &end "
+                                                    "before it away, or begin a comment with '!'\n");
+    struct reading r = read_text("\xef\xbb\xbf&one x = 1 / y = 2, or so &two x = 1 / ! flag = T\n"
+                                 "ex = 2\nflag = T\n# &two x = 3 /! &one flag = T /\n");
+    assert_int_equal(r.status, SELAS_OK);
+    assert_int_equal(r.list.groups, 3);
+    assert_string_equal(
+        r.messages.text,
+        "f:1:17: warning: 'y = 2, or so' behind the end of &one is not read; a comment "
+        "begins with '!'\n"
+        "f:4:3: warning: '#' before it makes no comment of this group, which is read; a comment begins "
+        "with '!'\n");
+    release(&r);
+}
+
+static void names_of_other_groups_are_known(void **state)
+{
+    (void)state;
+    expect("&two flag = T, list 3 /\n&one x 1 /",
+           "f:1:6: error: unknown name 'flag' in &two; it is a word of &one\n"
+           "f:2:6: error: no '=' behind 'x' of &one\n");
+}
+
 static void assignments_replace_values(void **state)
 {
     (void)state;
     struct reading r = read_text("&one list = 1, 2, 3 text = 'a', 'b' /\n");
     struct deck_group *group = &r.list.group[0];
-    assert_int_equal(namelist_assign(group, "list=7", 6, &r.messages), SELAS_OK);
+    assert_int_equal(namelist_assign(&r.list, group, "list=7", 6, &r.messages), SELAS_OK);
     assert_int_equal(group->item[1].values, 1);
     assert_int_equal(group->item[1].place.line, 0);
-    assert_int_equal(namelist_assign(group, "text(2)='c'", 11, &r.messages), SELAS_OK);
+    assert_int_equal(namelist_assign(&r.list, group, "text(2)='c'", 11, &r.messages), SELAS_OK);
     assert_string_equal(group->item[2].value[0].as.text, "a");
     assert_string_equal(group->item[2].value[1].as.text, "c");
     assert_null(r.messages.text);
-    assert_int_equal(namelist_assign(group, "list=1,,x", 9, &r.messages), SELAS_BAD_DECK);
+    assert_int_equal(namelist_assign(&r.list, group, "list=1,,x", 9, &r.messages), SELAS_BAD_DECK);
     assert_string_equal(r.messages.text, "override: error: 'list' is given twice\n");
     release(&r);
 }
@@ -160,6 +190,8 @@ int main(void)
         cmocka_unit_test(text_between_groups_is_ignored),
         cmocka_unit_test(groups_that_nobody_knows_are_errors),
         cmocka_unit_test(reading_goes_on_after_errors),
+        cmocka_unit_test(what_stands_outside_of_groups_is_told),
+        cmocka_unit_test(names_of_other_groups_are_known),
         cmocka_unit_test(assignments_replace_values),
         cmocka_unit_test(words_that_go_warn_for_one_version),
     };

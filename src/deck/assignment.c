@@ -180,7 +180,7 @@ static void unknown_word(struct scanner *scanner, const struct word_group *kind,
     }
     scan_quote(scanner, at, length, quoted);
     scan_error(scanner, at, "unknown name '%s' in &%s%s", quoted, kind->name,
-               suggest_word(kind, quoted, suggestion));
+               suggest_word(scanner->table, kind, quoted, suggestion));
 }
 
 bool scan_assignment(struct scanner *scanner, struct deck_group *group)
@@ -192,7 +192,11 @@ bool scan_assignment(struct scanner *scanner, struct deck_group *group)
         while (!is_separator(scan_peek(scanner, end)))
             end++;
         scan_quote(scanner, at, end - at, quoted);
-        if (scanner->full != NULL)
+        const bool is_word = words_find(group->kind, scanner->text + at, length) < group->kind->words;
+        if (length > 0 && is_word)
+            scan_error(scanner, at, "no '=' behind '%.*s' of &%s", (int)length, scanner->text + at,
+                       group->kind->name);
+        else if (scanner->full != NULL)
             scan_error(scanner, at, "too many values for '%s': '%s'; expected %s%zu%s%s", scanner->full->name,
                        quoted, scanner->full->count > 1 ? "at most " : "", scanner->full->count,
                        scanner->full->type == WORD_REAL && scanner->full->count == 1

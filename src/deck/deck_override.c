@@ -50,11 +50,13 @@ static bool is_empty(const char *equals)
 }
 
 /* "snapshot%every=": as if the deck did not have the name. */
-static void unset(struct deck_group *group, const char *name, const char *equals, struct messages *messages)
+static void unset(const struct deck *deck, struct deck_group *group, const char *name, const char *equals,
+                  struct messages *messages)
 {
     const size_t length = strcspn(name, "(= "), index = words_find(group->kind, name, length);
     if (index == group->kind->words)
-        namelist_assign(group, name, strlen(name), messages); /* knows what may have been meant */
+        namelist_assign(&deck->list, group, name, strlen(name),
+                        messages); /* knows what may have been meant */
     else if (strcspn(name, "(") < (size_t)(equals - name))
         namelist_message(messages, NULL, (struct place){0, 0}, true,
                          "no value for '%.*s' of &%s; a name without a subscript would be unset", (int)length,
@@ -63,7 +65,8 @@ static void unset(struct deck_group *group, const char *name, const char *equals
         item_clear(&group->kind->word[index], &group->item[index]);
 }
 
-static void assign(struct deck_group *group, const char *name, const char *equals, struct messages *messages)
+static void assign(const struct deck *deck, struct deck_group *group, const char *name, const char *equals,
+                   struct messages *messages)
 {
     const size_t size = 2 * strlen(name) + 16;
     const size_t name_length = strcspn(name, "(= ");
@@ -80,7 +83,7 @@ static void assign(struct deck_group *group, const char *name, const char *equal
         quote_texts(equals + 1, word->count > 1, value);
     else
         memcpy(value, equals + 1, strlen(equals + 1));
-    namelist_assign(group, text, strlen(text), messages);
+    namelist_assign(&deck->list, group, text, strlen(text), messages);
     array_free(text);
 }
 
@@ -158,7 +161,7 @@ void deck_override(struct deck *deck, const char *text, struct messages *message
     struct deck_group *group = find(deck, kind, number, text, messages);
     if (group == NULL) return;
     if (is_empty(equals))
-        unset(group, name, equals, messages);
+        unset(deck, group, name, equals, messages);
     else
-        assign(group, name, equals, messages);
+        assign(deck, group, name, equals, messages);
 }

@@ -224,32 +224,130 @@ static bool find_group(struct namelist *list, struct scanner *scanner, size_t at
     return true;
 }
 
+static bool is_blank(int c)
+{
+    return c == ' ' || c == '\t';
+}
+
+/* A group of the table, with its mark? */
+static bool is_known_group(const struct scanner *scanner, size_t at)
+{
+    const int c = scan_peek(scanner, at);
+    const size_t length = c == '&' || c == '$' ? scan_name_length(scanner, at + 1) : 0;
+    return length > 0 &&
+           words_find_group(scanner->table, scanner->text + at + 1, length) < scanner->table->groups;
+}
+
+/* Quotes the text from a position to the end of its line, a comment or a group; false if there is none. */
+static bool quote_rest(const struct scanner *scanner, size_t at, char quoted[QUOTED_SIZE])
+{
+    size_t end = at;
+    for (int c = scan_peek(scanner, end);
+         c != '\n' && c != '\r' && c != '!' && c != END_OF_TEXT && !is_known_group(scanner, end);
+         c = scan_peek(scanner, ++end)) {
+    }
+    while (end > at && is_blank(scan_peek(scanner, end - 1)))
+        end--;
+    scan_quote(scanner, at, end - at, quoted);
+    return end > at;
+}
+
+/* A word of a group, with '=' behind it, outside of the group? */
+static bool is_lost(const struct scanner *scanner, size_t at, const struct word_group *kind)
+{
+    if (at > 0 && is_name_character(scan_peek(scanner, at - 1))) return false;
+    const size_t length = scan_name_length(scanner, at);
+    return length > 0 && words_find(kind, scanner->text + at, length) < kind->words &&
+           scan_is_assignment(scanner, at);
+}
+
+/* What stands behind a group's end on its line: gfortran drops the 4 of 1/4 without a word. */
+static bool look_behind(struct scanner *scanner, const struct word_group *kind)
+{
+    char quoted[QUOTED_SIZE];
+    size_t at = scanner->at;
+    int c = scan_peek(scanner, at);
+    const bool slash = at > 0 && scanner->text[at - 1] == '/';
+    bool fraction = slash && (is_name_character(c) || c == '.' || c == '+' || c == '-' || c == '*');
+    while (is_blank(c) || c == ',' || c == ';')
+        c = scan_peek(scanner, ++at);
+    fraction = fraction || (slash && ((c >= '0' && c <= '9') || c == '.'));
+    if ((c == '&' || c == '$') && scan_name_length(scanner, at + 1) > 0)
+        return false; /* a group, known or not */
+    if (!quote_rest(scanner, at, quoted) || (!fraction && is_lost(scanner, at, kind))) return false;
+    if (fraction)
+        scan_error(scanner, scanner->at - 1,
+                   "this '/' ends &%s, and '%s' behind it is not read; expected a fraction as one number, "
+                   "0.25, or a comment with '!'",
+                   kind->name, quoted);
+    else
+        namelist_message(scanner->messages, scanner->name, scan_place(scanner, at), false,
+                         "'%s' behind the end of &%s is not read; a comment begins with '!'", quoted,
+                         kind->name);
+    return fraction;
+}
+
+/* Text before a group on its line does not make a comment of it. */
+static void look_before(struct scanner *scanner, size_t at, size_t earliest)
+{
+    size_t start = at;
+    while (start > earliest && scanner->text[start - 1] != '\n')
+        start--;
+    if (start > 0 && start == earliest) return; /* told as behind the group before */
+    if (start == 0 && at >= 3 && memcmp(scanner->text, "\xef\xbb\xbf", 3) == 0) start = 3;
+    while (start < at && is_blank(scanner->text[start]))
+        start++;
+    char quoted[QUOTED_SIZE];
+    if (quote_rest(scanner, start, quoted))
+        namelist_message(
+            scanner->messages, scanner->name, scan_place(scanner, at), false,
+            "'%s' before it makes no comment of this group, which is read; a comment begins with '!'",
+            quoted);
+}
+
 selas_status namelist_read(struct namelist *list, const char *name, const char *text, size_t length,
                            struct messages *messages)
 {
-    struct scanner scanner = {.name = name, .text = text, .length = length, .messages = messages};
+    struct scanner scanner = {
+        .name = name, .table = list->table, .text = text, .length = length, .messages = messages};
     const char *zero = length > 0 ? memchr(text, '\0', length) : NULL;
     if (zero != NULL) {
         scan_error(&scanner, (size_t)(zero - text), "a byte 0: this is not a text file");
         return SELAS_BAD_DECK;
     }
     size_t earliest = 0;
+    const struct word_group *last = NULL; /* the group that has ended, until something behind it is refused */
     for (;;) {
+        const size_t at = scanner.at, groups = list->groups;
         const int c = scan_next(&scanner);
         if (c == END_OF_TEXT) break;
         if (c == '!') scan_line(&scanner);
+        if (last != NULL && is_lost(&scanner, at, last)) {
+            scan_error(
+                &scanner, at,
+                "this stands outside of a group and would not be read: &%s has ended; take the '/' or &end "
+                "before it away, or begin a comment with '!'",
+                last->name);
+            last = NULL;
+        }
         if (c != '&' && c != '$') continue;
-        const size_t after = scanner.at;
-        if (!find_group(list, &scanner, after - 1, earliest)) break;
-        if (scanner.at != after) earliest = scanner.at;
+        if (!find_group(list, &scanner, at, earliest)) break;
+        if (scanner.at == at + 1) continue;
+        last = NULL;
+        if (list->groups > groups) {
+            last = list->group[groups].kind;
+            look_before(&scanner, at, earliest);
+            if (look_behind(&scanner, last)) last = NULL;
+        }
+        earliest = scanner.at;
     }
     return scanner.errors == 0 ? SELAS_OK : SELAS_BAD_DECK;
 }
 
-selas_status namelist_assign(struct deck_group *group, const char *text, size_t length,
-                             struct messages *messages)
+selas_status namelist_assign(const struct namelist *list, struct deck_group *group, const char *text,
+                             size_t length, struct messages *messages)
 {
-    struct scanner scanner = {.text = text, .length = length, .messages = messages};
+    struct scanner scanner = {.table = list->table, .text = text, .length = length, .messages = messages};
     const size_t name_length = scan_name_length(&scanner, 0);
     const size_t index = words_find(group->kind, text, name_length);
     if (index < group->kind->words && scan_peek(&scanner, name_length) != '(') { /* replaces it all */

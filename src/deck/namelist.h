@@ -59,14 +59,15 @@ struct namelist {
 };
 
 /* Reads all groups of a text and adds them to the list; errors as "NAME:LINE:COLUMN: error: ...". Returns
- * SELAS_BAD_DECK if there was one. */
+ * SELAS_BAD_DECK if there was one. What stands between groups is not read: it is refused where it was meant to be
+ * (a fraction, a word behind a '/' too early), and warned of on the line of a group. */
 selas_status namelist_read(struct namelist *list, const char *name, const char *text, size_t length,
                            struct messages *messages);
 
 /* Reads "name = values" or "name(2) = ..." (length bytes, the whole of it) into one group; errors as
  * "override: error: ...". What the text says replaces what the group had. */
-selas_status namelist_assign(struct deck_group *group, const char *text, size_t length,
-                             struct messages *messages);
+selas_status namelist_assign(const struct namelist *list, struct deck_group *group, const char *text,
+                             size_t length, struct messages *messages);
 
 /* Takes all values away: as if the text did not have the name. */
 void item_clear(const struct word *word, struct item *item);

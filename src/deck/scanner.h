@@ -10,7 +10,8 @@
 enum { END_OF_TEXT = -1 };
 
 struct scanner {
-    const char *name; /* of the file, for messages; NULL: an override */
+    const char *name;               /* of the file, for messages; NULL: an override */
+    const struct word_table *table; /* all groups; NULL: of defaults */
     const char *text;
     size_t length, at;
     bool at_line_end;        /* the last character read ended a line */

@@ -145,9 +145,19 @@ const char *suggest_group(const struct word_table *table, const char *word, cons
     return suggestion(&nearest, mark, text);
 }
 
-const char *suggest_word(const struct word_group *group, const char *word, char text[SUGGESTION_SIZE])
+const char *suggest_word(const struct word_table *table, const struct word_group *group, const char *word,
+                         char text[SUGGESTION_SIZE])
 {
     struct nearest nearest = {"", SIZE_MAX};
+    size_t used = 0;
+    for (size_t i = 0, told = 0; table != NULL && i < table->groups && told < 3; i++) {
+        const struct word_group *other = &table->group[i];
+        if (words_find(other, word, strlen(word)) == other->words) continue;
+        const int more = snprintf(text + used, SUGGESTION_SIZE - used, "%s&%s",
+                                  told++ > 0 ? ", " : "; it is a word of ", other->name);
+        used = more > 0 && used + (size_t)more < SUGGESTION_SIZE ? used + (size_t)more : SUGGESTION_SIZE - 1;
+    }
+    if (used > 0) return text;
     for (int expert = 0; expert < 2; expert++)
         for (size_t i = 0; i < group->words; i++)
             if ((group->word[i].need == EXPERT) == expert) keep_nearest(word, group->word[i].name, &nearest);

@@ -91,12 +91,13 @@ bool word_in_range(const struct word *word, double value);
  * (optimal string alignment), case-free. Words of more than 63 characters count as infinitely far. */
 size_t words_distance(const char *one, const char *other);
 /* "; did you mean 'NAME'?" with the nearest name (of a group in the table, behind the mark; of a word in the
- * group, words for experts only where no other one is as near; of a choice), or "" if none is near. Returns
- * text. */
+ * group, words for experts only where no other one is as near; of a choice), or "" if none is near; of a word of other
+ * groups "; it is a word of &GROUP". Returns text. */
 enum { SUGGESTION_SIZE = 96 };
 const char *suggest_group(const struct word_table *table, const char *word, const char *mark,
                           char text[SUGGESTION_SIZE]);
-const char *suggest_word(const struct word_group *group, const char *word, char text[SUGGESTION_SIZE]);
+const char *suggest_word(const struct word_table *table, const struct word_group *group, const char *word,
+                         char text[SUGGESTION_SIZE]);
 const char *suggest_choice(const struct word *word, const char *choice, char text[SUGGESTION_SIZE]);
 
 #endif
