@@ -52,6 +52,10 @@ else
     sed 's/^/# /' said
     failures=1
 fi
+grep -v receiver good.nml >blind.nml
+deck=blind.nml
+told "nothing that is looked at" "nothing is looked at"
+deck=
 # cutoff of the gaussian: exp(-(w width)^2 / 2) = .05 at w = 2.448 / width; S waves of speed 1: 4 points at spacing .642 width
 told "few points per wavelength" "3.08 points per wavelength .* 4 need body%spacing = 0.193" load%width=.3 load%delay=2
 told "a small step" "leave stepping%time_step" stepping%time_step=1e-3

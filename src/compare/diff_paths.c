@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static bool is_folder(const char *path)
 {
@@ -177,6 +178,10 @@ selas_status diff_paths(const char *a, const char *b, const struct tolerance *to
                         struct diff_report *report, struct messages *messages)
 {
     report->differences = 0;
+    const char *const path[2] = {a, b};
+    for (int k = 0; k < 2; k++)
+        if (access(path[k], F_OK) != 0)
+            return fail(messages, SELAS_FILE_ERROR, "cannot open '%s': %s", path[k], strerror(errno));
     const bool folder = is_folder(a);
     if (folder != is_folder(b))
         return fail(messages, SELAS_BAD_ARGUMENT, "'%s' and '%s' are not both folders or both files", a, b);

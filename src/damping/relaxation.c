@@ -279,11 +279,11 @@ static bool keep_passive(const struct modulus *wanted, double held, const struct
 
 static selas_status too_low(size_t mechanisms, const struct modulus *wanted, struct messages *messages)
 {
+    const double quality = 1 / modulus_loss(wanted, wanted->angular_frequency);
     return fail(messages, SELAS_BAD_SCENE,
                 "damping: %zu relaxation mechanisms cannot stand for so low a Q over these frequencies "
-                "(%.3g); expected "
-                "more method%%mechanisms, up to 8, or a higher Q",
-                mechanisms, 1 / modulus_loss(wanted, wanted->angular_frequency));
+                "(%.3g); expected more method%%mechanisms, up to 8, or a higher Q%s",
+                mechanisms, quality, quality < 1 ? " (q_p and q_s are Q, not 1/Q)" : "");
 }
 
 selas_status relaxation_weights(const struct relaxation_band *band, size_t mechanisms,

@@ -188,6 +188,20 @@ static selas_status plot_ground(selas_simulation *simulation)
     return status;
 }
 
+/* The program's user has nothing but files; hosts may look by themselves. */
+static selas_status look_for_results(selas_simulation *simulation, bool strict)
+{
+    static const char nothing[] =
+        "nothing is looked at: no receiver, no profile, no snapshot; the run leaves energies "
+        "alone; a &receiver would be right";
+    const selas_status status = simulation_scene(simulation);
+    const struct scene *scene = simulation->scene;
+    if (status != SELAS_OK || scene->receivers + scene->profiles + scene->snapshots > 0) return status;
+    if (strict) return fail(&simulation->messages, SELAS_BAD_SCENE, "%s", nothing);
+    warn(&simulation->messages, "%s", nothing);
+    return SELAS_OK;
+}
+
 static selas_status carry_out(selas_simulation *simulation, const struct arguments *arguments, size_t *told)
 {
     if (strcmp(arguments->command, "check") == 0) {
@@ -279,6 +293,7 @@ int main(int count, char **words)
         status = ranks_agree(ranks, status, &simulation->messages);
         simulation_share(simulation, ranks);
     }
+    if (status == SELAS_OK) status = look_for_results(simulation, arguments.strict);
     if (status == SELAS_OK && arguments.strict) status = be_strict(simulation);
     if (status == SELAS_OK) status = carry_out(simulation, &arguments, &told);
     if (simulation != NULL) status = ranks_agree(ranks, status, &simulation->messages);

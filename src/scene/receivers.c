@@ -15,9 +15,12 @@ static bool check_file_name(struct builder *builder, const struct deck_group *gr
     static const char safe[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";
     const size_t length = strlen(name), good = strspn(name, safe);
     if (good < length) {
+        size_t bytes = 1; /* of the character, which may be UTF-8 */
+        while (((unsigned char)name[good + bytes] & 0xc0) == 0x80)
+            bytes++;
         complain(builder, group, "name",
-                 "'%c' in the name '%s' cannot stand in a file name; expected letters, digits, _ - + .",
-                 name[good], name);
+                 "'%.*s' in the name '%s' cannot stand in a file name; expected letters, digits, _ - + .",
+                 (int)bytes, name + good, name);
         return false;
     }
     if (name[0] == '.' || name[0] == '-') {
