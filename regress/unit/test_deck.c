@@ -411,8 +411,10 @@ static void suggestions(void **state)
     static const struct word_group group = {"group", GROUP_ONCE, "", words, 3, NULL};
     static const struct word_table table = {&group, 1};
     char text[SUGGESTION_SIZE];
-    assert_string_equal(suggest_word(NULL, &group, "quit", text), "; did you mean 'quint'?");  /* both 1 away */
-    assert_string_equal(suggest_word(NULL, &group, "quite", text), "; did you mean 'quiet'?"); /* 1 against 2 */
+    assert_string_equal(suggest_word(NULL, &group, "quit", text),
+                        "; did you mean 'quint'?"); /* both 1 away */
+    assert_string_equal(suggest_word(NULL, &group, "quite", text),
+                        "; did you mean 'quiet'?"); /* 1 against 2 */
     assert_string_equal(suggest_word(NULL, &group, "forec", text), "; did you mean 'force'?");
     assert_string_equal(suggest_word(NULL, &group, "spacing", text), "");
     assert_string_equal(suggest_group(&table, "gruop", "&", text), "; did you mean '&group'?");
