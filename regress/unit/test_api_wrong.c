@@ -83,6 +83,9 @@ static void test_wrong_handles(void **state)
     selas_close(&simulation);
     wrong_open(&simulation, selas_open_deck_with("input/bar.nml", 1, NULL, &simulation));
     selas_close(&simulation);
+    static const char *const holes[] = {"body%spacing=.5", NULL};
+    wrong_open(&simulation, selas_open_deck_with("input/bar.nml", 2, holes, &simulation));
+    selas_close(&simulation);
     wrong_open(&simulation, selas_open_deck_with("input/bar.nml", 1, override, &simulation));
     selas_close(&simulation);
     wrong_open(&simulation, selas_open_new(NULL, &simulation));
@@ -92,6 +95,27 @@ static void test_wrong_handles(void **state)
     selas_close(&simulation);
     selas_close(&simulation);
     selas_close(NULL);
+}
+
+/* A warning of a scene that is built anew, as each call about its loads does, is said once. */
+static void test_warnings_once(void **state)
+{
+    (void)state;
+    static const char late[] = "&scene dimension = 2, end_time = 1 /\n"
+                               "&material name = 'rock', density = 1, lambda = 1, mu = 1 /\n"
+                               "&body material = 'rock', low = 0, 0, high = 2, 2, spacing = .25 /\n"
+                               "&load name = 'a', face = 'y-', shape = 'face', direction = 0, 1, history = "
+                               "'gaussian', width = 1, delay = 1 /\n";
+    selas_simulation *simulation = NULL;
+    assert_int_equal(selas_open_text("late", late, &simulation), SELAS_OK);
+    for (int i = 0; i < 3; i++)
+        assert_int_equal(selas_set_load(simulation, "a", 1), SELAS_OK);
+    const char *first = strstr(selas_message(simulation), "cut at t = 0");
+    assert_non_null(first);
+    assert_null(strstr(first + 1, "cut at t = 0"));
+    assert_int_equal(selas_energy(simulation, &(double){0}, &(double){0}), SELAS_OK);
+    wrong(simulation, selas_record(simulation));
+    selas_close(&simulation);
 }
 
 static void test_wrong_words(void **state)
@@ -332,6 +356,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_statuses),
         cmocka_unit_test_setup_teardown(test_wrong_handles, listen_to_output, nothing_was_printed),
+        cmocka_unit_test_setup_teardown(test_warnings_once, listen_to_output, nothing_was_printed),
         cmocka_unit_test_setup_teardown(test_wrong_words, listen_to_output, nothing_was_printed),
         cmocka_unit_test_setup_teardown(test_wrong_calls, listen_to_output, nothing_was_printed),
         cmocka_unit_test_setup_teardown(test_wrong_checkpoints, listen_to_output, nothing_was_printed),

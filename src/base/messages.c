@@ -6,11 +6,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Is the line there already? */
+static bool is_told(const struct messages *messages, const char *line)
+{
+    const size_t length = strlen(line);
+    const char *at = messages->text;
+    while (at != NULL && length > 0 && (at = strstr(at, line)) != NULL) {
+        if ((at == messages->text || at[-1] == '\n') && at[length] == '\n') return true;
+        at += length;
+    }
+    return false;
+}
+
 void messages_add(struct messages *messages, bool is_error, bool is_warning, const char *line)
 {
     if (messages == NULL) return;
     if (is_error) messages->errors++;
     if (is_warning) messages->warnings++;
+    if (is_warning && !is_error && is_told(messages, line)) return; /* of a scene that is built anew */
     const size_t extra = strlen(line) + 1;
     char *text = realloc(messages->text, messages->length + extra + 1);
     if (text == NULL) return; /* the count still tells that something was wrong */

@@ -16,7 +16,7 @@ struct messages {
  */
 selas_status fail(struct messages *messages, selas_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* Adds the line "warning: ...". */
+/* Adds the line "warning: ..."; one that is there already is counted alone. */
 void warn(struct messages *messages, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* Adds one line as it is (no prefix); counts it as an error or a warning by the flags. */
 void messages_add(struct messages *messages, bool is_error, bool is_warning, const char *line);

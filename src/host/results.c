@@ -62,7 +62,8 @@ selas_status selas_record(selas_simulation *simulation)
     const selas_status status = simulation_scene(simulation);
     if (status != SELAS_OK) return status;
     if (simulation->state.y != NULL && !simulation->recording)
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "ask for result files before the first step");
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "ask for result files before the first step, and before a value is read at t = 0");
     simulation->recording = true;
     return SELAS_OK;
 }

@@ -83,7 +83,10 @@ selas_status selas_open_deck_with(const char *path, size_t count, const char *co
     const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
-    if (path == NULL || (count > 0 && overrides == NULL))
+    bool missing = path == NULL || (count > 0 && overrides == NULL);
+    for (size_t i = 0; i < count && !missing; i++)
+        missing = overrides[i] == NULL;
+    if (missing)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the deck's path or the overrides are NULL");
     simulation->broken = deck_read_file(path, count, overrides, &simulation->deck, &simulation->messages);
     return simulation_scene(simulation);
