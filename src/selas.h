@@ -103,8 +103,8 @@ SELAS_API selas_status selas_finish(selas_simulation *simulation);
 SELAS_API selas_status selas_history(selas_simulation *simulation, const char *name, size_t *rows,
                                      const double **time, const double **value);
 
-/* Asks for result files: call before the first step and before a value is read at t = 0; selas_write then leaves them in the deck's output
- * directory. */
+/* Asks for result files: call before the first step and before a value is read at t = 0; selas_write then leaves
+ * them in the deck's output directory. */
 SELAS_API selas_status selas_record(selas_simulation *simulation);
 /* Finishes if need be, computes the exact solution if the deck asks for one, writes all results. */
 SELAS_API selas_status selas_write(selas_simulation *simulation);

@@ -1,5 +1,4 @@
-/* The library's door: a simulation goes one way, deck -> scene -> model -> stepping -> record, each made when
- * first needed. */
+/* The library's door: deck -> scene -> model -> stepping -> record, each made when first needed. */
 #include "accuracy/accuracy.h"
 #include "method/methods.h"
 #include "selas.h"
@@ -83,10 +82,10 @@ selas_status selas_open_deck_with(const char *path, size_t count, const char *co
     const selas_status status = simulation_new(opened);
     if (status != SELAS_OK) return status;
     selas_simulation *simulation = *opened;
-    bool missing = path == NULL || (count > 0 && overrides == NULL);
-    for (size_t i = 0; i < count && !missing; i++)
-        missing = overrides[i] == NULL;
-    if (missing)
+    size_t there = 0;
+    while (overrides != NULL && there < count && overrides[there] != NULL)
+        there++;
+    if (path == NULL || there < count)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "the deck's path or the overrides are NULL");
     simulation->broken = deck_read_file(path, count, overrides, &simulation->deck, &simulation->messages);
     return simulation_scene(simulation);
