@@ -58,7 +58,12 @@ rm -rf output
 changed "missing /" '6d' "3:1: error: &body is not closed: expected '/' before line 6"
 changed "missing / at the end" '$s,/,,' "11:1: error: &receiver is not closed: .*"
 changed "unknown key" 's/spacing/spcaing/' "4:37: error: unknown name 'spcaing' in &body; did you mean 'spacing'?"
-changed "a word like no other" 's/centre = 3.5/position = 3.5/' "8:[0-9]*: error: unknown name 'position' in &load"
+changed "a word like no other" 's/centre = 3.5/whereabouts = 3.5/' "8:[0-9]*: error: unknown name 'whereabouts' in &load"
+changed "a word of another group" 's/centre = 3.5/position = 3.5/' \
+    "8:[0-9]*: error: unknown name 'position' in &load; it is a word of &receiver"
+changed "a fraction" 's/spacing = 0.5/spacing = 1\/2/' "4:48: error: this '/' ends &body, and '2' behind it is not read; .*"
+changed "a group that ends too early" 's/1.0, 1.0$/1.0, 1.0 \//' "9:3: error: this stands outside of a group .*"
+changed "no equals sign" 's/spacing = 0.5/spacing 0.5/' "4:37: error: no '=' behind 'spacing' of &body"
 changed "a receiver above a hill" "s/^&receiver.*/\\&topography shape = 'gaussian', height = 1, centre = 3.5, 3.5, width = 1 \\/\n\\&receiver name = 'top', position = 3.5, 3.5, -1.1 \\//" \
     "12:[0-9]*: error: .* lies above the surface, which is at z = -1 there; position = 3.5, 3.5, depth = 0 is on it"
 changed "unknown group" 's/&load/\&laod/' "7:1: error: unknown group '&laod'; did you mean '&load'?"
