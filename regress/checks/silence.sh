@@ -409,6 +409,7 @@ cat >kernels.nml <<'END'
 &body material = 'rock', spacing = .02083333333333333, low = 0, 0, high = 2, .5 /
 &boundary face = 'all', kind = 'roller' /
 &initial kind = 'plane-wave', direction = 1, 0, width = .2, centre = 1, 0, amplitude = .0001 /
+&receiver name = 'r', position = 1, .25 /
 END
 untold "waves on a lattice's points" check kernels.nml scene%end_time=2.7
 told "wider kernels" "'total-lagrangian' err by up to 0.2[0-9] when they have travelled to end_time; finer" check kernels.nml method%kernel=quintic
