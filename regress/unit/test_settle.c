@@ -1,40 +1,13 @@
 /* Moment tensors beside interfaces aslant (doc/theory/general-ground.md, Eqs G26 to G29): the fields that they are held
  * against, and the work of a load on fields of two rocks that are known in closed form; forces and receivers beside
- * interfaces (G30) on the same fields. */
-#include "consistent_run.h"
-#include "from_deck.h"
+ * interfaces (G30) on the same fields; strains of profiles (G31) and snapshots (G34). */
+#include "two_rocks.h"
 
-#include "method/consistent/general/general.h"
 #include "method/consistent/general/steady.h"
 #include "method/methods.h"
-#include "scene/grading.h"
 
 #include <math.h>
 #include <string.h>
-
-static const char aslant[] =
-    "&scene dimension = %d, end_time = 4 /\n"
-    "&material name = 'soil', density = .9, p_speed = 2, s_speed = 1 /\n"
-    "&material name = 'rock', density = 1.3, p_speed = 4, s_speed = 2 /\n"
-    "&body low = %s, high = %s, spacing = .1%s /\n"
-    "&method operator = 'general' /\n"
-    "&layer material = 'soil', top = 0 /\n"
-    "&layer material = 'rock', top = 1, dip = %g, strike = -90 /\n"
-    "&load kind = %s, centre = %s, amplitude = 1, history = 'gaussian', width = .4, delay = 2 /\n";
-
-static struct from_deck scene_of(int dimension, double dip, double x, double z, bool graded, bool force)
-{
-    static const char *const load[2][2] = {{"'moment-tensor', moment = 1, .3, 0, -.6, 0, 0",
-                                            "'moment-tensor', moment = 1, -.5, .3, .7, .4, -.6"},
-                                           {"'body-force', shape = 'point', direction = .6, .8",
-                                            "'body-force', shape = 'point', direction = .6, 0, .8"}};
-    char text[2000], place[100];
-    snprintf(place, sizeof place, dimension == 2 ? "%g, %g" : "%g, .02, %g", x, z);
-    snprintf(text, sizeof text, aslant, dimension, dimension == 2 ? "-1.2, 0" : "-1, -1, 0",
-             dimension == 2 ? (graded ? "1.2, 4" : "1.2, 2") : "1, 1, 2", graded ? ", grading = 2" : "", dip,
-             load[force][dimension - 2], place);
-    return right_scene(text);
-}
 
 /* --- The fields of the line ------------------------------------------------------------------------------ */
 
@@ -125,66 +98,6 @@ static void test_steady_fields_balance(void **state)
 
 /* --- The work of a load ----------------------------------------------------------------------------------- */
 
-enum { FIELDS = 3 };
-
-/* Under an even traction across the interface, one along it, or an even strain along it: displacement and its slopes
- * by x and z. */
-static void two_rocks(const struct scene *scene, int field, double dip, const double place[2],
-                      double shift[2], double slope[2][2])
-{
-    const double normal[2] = {-sin(dip), cos(dip)}, along[2] = {cos(dip), sin(dip)};
-    const double depth = place[0] * normal[0] + (place[1] - 1) * normal[1];
-    const double far = place[0] * along[0] + (place[1] - 1) * along[1];
-    const struct material *rock = &scene->material[depth > 0];
-    const double strain = field == 2,
-                 across = ((field == 0) - rock->lambda * strain) / (rock->lambda + 2 * rock->mu);
-    const double shear = (field == 1) / rock->mu;
-    for (int i = 0; i < 2; i++) {
-        shift[i] = across * depth * normal[i] + (strain * far + shear * depth) * along[i];
-        for (int j = 0; j < 2; j++)
-            slope[i][j] = across * normal[i] * normal[j] + (strain * along[j] + shear * normal[j]) * along[i];
-    }
-}
-
-/* Control values between others that are kept, at rest. */
-static void relax(struct consistent *c, double *u)
-{
-    const size_t n = c->model.unknowns;
-    double *rest = calloc(n, sizeof *rest), *way = calloc(n, sizeof *way), *pull = calloc(n, sizeof *pull);
-    bool *loose = calloc(n, sizeof *loose);
-    double size = 0, first = 0;
-    for (size_t i = 0; i < n; i++) {
-        const size_t k = i % c->volume, at[3] = {k % c->n[0], k / c->n[0] % c->n[1], k / c->plane};
-        loose[i] = true;
-        for (int axis = 0; axis < c->dimension; axis++)
-            loose[i] = loose[i] && at[c->slot[axis]] > 2 && at[c->slot[axis]] + 3 < c->n[c->slot[axis]];
-    }
-    general_forces(c, u, NULL, rest);
-    for (size_t i = 0; i < n; i++) {
-        way[i] = rest[i] = loose[i] ? rest[i] : 0;
-        size += rest[i] * rest[i];
-    }
-    first = size;
-    for (int step = 0; step < 2000 && size > 1e-16 * first; step++) {
-        general_forces(c, way, NULL, pull);
-        for (size_t i = 0; i < n; i++)
-            pull[i] = loose[i] ? -pull[i] : 0;
-        const double far = size / dot(n, way, pull);
-        for (size_t i = 0; i < n; i++) {
-            u[i] += far * way[i];
-            rest[i] -= far * pull[i];
-        }
-        const double next = dot(n, rest, rest);
-        for (size_t i = 0; i < n; i++)
-            way[i] = rest[i] + next / size * way[i];
-        size = next;
-    }
-    free(rest);
-    free(way);
-    free(pull);
-    free(loose);
-}
-
 /* What the load's forces do on control values. */
 static double work_of(const struct consistent *c, const double *u)
 {
@@ -197,25 +110,6 @@ static double work_of(const struct consistent *c, const double *u)
         }
     free(plane);
     return done;
-}
-
-/* Control values of a field of two rocks, at rest; less an eighth of second differences of a graded lattice. */
-static double *field_at_rest(const struct from_deck *deck, struct consistent *c, int field, double dip)
-{
-    const struct spline *depth = c->spline[c->dimension - 1];
-    const double spacing = (depth->high - depth->low) / (double)depth->cells;
-    double *u = calloc(c->model.unknowns, sizeof *u), shift[2], slope[2][2];
-    for (size_t i = 0; i < c->volume; i++)
-        for (int side = -1; side <= 1; side++) {
-            const double zeta = depth->greville[i / c->plane] + side * spacing;
-            const double place[2] = {c->spline[0]->greville[i % c->n[0]],
-                                     grading_real(deck->scene->body.grading, zeta)};
-            two_rocks(deck->scene, field, dip * M_PI / 180, place, shift, slope);
-            u[i] += (side == 0 ? 1.25 : -.125) * shift[0];
-            u[(size_t)(c->dimension - 1) * c->volume + i] += (side == 0 ? 1.25 : -.125) * shift[1];
-        }
-    relax(c, u);
-    return u;
 }
 
 /* Of a moment tensor in the plane x, z: the largest error of its work, in parts of what a moment as large does at
@@ -256,9 +150,9 @@ static void test_work_beside_interfaces_aslant(void **state)
     for (size_t i = 0; i < sizeof dip / sizeof *dip; i++)
         for (size_t j = 0; j < sizeof away / sizeof *away; j++) {
             const double x = .013 + .027 * (double)j, z = 1 + x * tan(dip[i] * M_PI / 180) + away[j];
-            const double off = worst_work(2, dip[i], x, z, false);
-            if (off > .01) print_error("dip %g, %g from the interface: %g\n", dip[i], away[j], off);
-            worst = fmax(worst, off);
+            const double here = worst_work(2, dip[i], x, z, false);
+            if (here > .01) print_error("dip %g, %g from the interface: %g\n", dip[i], away[j], here);
+            worst = fmax(worst, here);
         }
     assert_true(worst < .01); /* without (G29) up to .5 */
     assert_true(worst_work(3, 20, .013, 1.05, false) < .01);
@@ -319,6 +213,18 @@ static void test_displacement_beside_interfaces(void **state)
     assert_true(fmax(worst[0], worst[1]) < .02);
 }
 
+/* What strains at a place are off, in parts of the slopes of displacement. */
+static double off(const struct scene *scene, int field, double dip, const double place[3], int dimension,
+                  const double strain[6])
+{
+    const int last = dimension - 1, cross = dimension == 2 ? 3 : 5;
+    double slope[2][2], shift[2];
+    two_rocks(scene, field, dip * M_PI / 180, (double[]){place[0], place[last]}, shift, slope);
+    const double worst = fmax(fmax(fabs(strain[0] - slope[0][0]), fabs(strain[last] - slope[1][1])),
+                              fabs(strain[cross] - (slope[0][1] + slope[1][0]) / 2));
+    return worst / fmax(hypot(slope[0][0], slope[0][1]), hypot(slope[1][0], slope[1][1]));
+}
+
 /* Of the strains that a profile reads: the largest error, in parts of the slopes of displacement; without the rock's
  * jump (smooth) they would err by up to the ratio of the moduli. */
 static double worst_strain(int dimension, double dip, double x, double z)
@@ -328,22 +234,16 @@ static double worst_strain(int dimension, double dip, double x, double z)
     struct model *model = NULL;
     struct probe probe = {.fields = 1U << SELAS_STRAIN};
     assert_int_equal(model_create(deck.scene, &model, &messages), SELAS_OK);
-    const int last = dimension - 1, cross = dimension == 2 ? 3 : 5;
     const double place[3] = {x, dimension == 2 ? z : .02, z};
     assert_int_equal(model->core->probe(model, place, &probe, &messages), SELAS_OK);
     assert_true(probe.strains > 0 && probe.strains == probe.sites);
     double worst = 0;
     for (int field = 0; field < FIELDS; field++) {
-        double *u = field_at_rest(&deck, consistent_of(model), field, dip), slope[2][2], shift[2],
-               seen[6] = {0};
+        double *u = field_at_rest(&deck, consistent_of(model), field, dip), seen[6] = {0};
         double *state = calloc(2 * model->unknowns, sizeof *state);
         memcpy(state, u, model->unknowns * sizeof *u);
-        two_rocks(deck.scene, field, dip * M_PI / 180, (double[]){x, z}, shift, slope);
-        const double scale = fmax(hypot(slope[0][0], slope[0][1]), hypot(slope[1][0], slope[1][1]));
         model_observe(model, &probe, SELAS_STRAIN, state, NULL, seen);
-        worst = fmax(worst, fabs(seen[0] - slope[0][0]) / scale);
-        worst = fmax(worst, fabs(seen[last] - slope[1][1]) / scale);
-        worst = fmax(worst, fabs(seen[cross] - (slope[0][1] + slope[1][0]) / 2) / scale);
+        worst = fmax(worst, off(deck.scene, field, dip, place, dimension, seen));
         free(state);
         free(u);
     }
@@ -360,11 +260,60 @@ static void test_strains_beside_interfaces(void **state)
     for (size_t i = 0; i < sizeof dip / sizeof *dip; i++)
         for (size_t j = 0; j < sizeof away / sizeof *away; j++) {
             const double x = .013 + .027 * (double)j, z = 1 + x * tan(dip[i] * M_PI / 180) + away[j];
-            const double off = worst_strain(2, dip[i], x, z);
-            if (off > .02) fail_msg("dip %g, %g from the interface: %g", dip[i], away[j], off);
+            const double most = worst_strain(2, dip[i], x, z);
+            if (most > .02) fail_msg("dip %g, %g from the interface: %g", dip[i], away[j], most);
         }
     assert_true(worst_strain(3, 0, .013, .98) < .01);
     assert_true(worst_strain(3, 0, .013, 1.02) < .01);
+}
+
+/* Of the strains of a snapshot within 3 spacings of the interface, off the faces: the same. */
+static double worst_of_snapshot(int dimension, double dip, bool graded)
+{
+    struct from_deck deck = scene_of(dimension, dip, .013, .9, graded, true);
+    struct messages messages = {0};
+    struct model *model = NULL;
+    assert_int_equal(model_create(deck.scene, &model, &messages), SELAS_OK);
+    const int last = dimension - 1;
+    const double angle = dip * M_PI / 180;
+    double worst = 0, *value = calloc(6 * model->points, sizeof *value),
+           *state = calloc(2 * model->unknowns, sizeof *state);
+    size_t seen = 0;
+    for (int field = 0; field < FIELDS; field++) {
+        double *u = field_at_rest(&deck, consistent_of(model), field, dip), place[3];
+        memcpy(state, u, model->unknowns * sizeof *u);
+        model->core->field(model, SELAS_STRAIN, state, NULL, 0, model->points, value);
+        for (size_t point = 0; point < model->points; point++) {
+            model_position(model, point, place);
+            const double depth = (place[last] - 1) * cos(angle) - place[0] * sin(angle);
+            if (fabs(depth) < 1e-9 || fabs(depth) > .3 || fabs(place[0]) > .55 ||
+                fabs(place[last] - 1) > .6 || (dimension == 3 && fabs(place[1]) > .35))
+                continue;
+            worst = fmax(worst, off(deck.scene, field, dip, place, dimension, value + 6 * point));
+            seen++;
+        }
+        free(u);
+    }
+    assert_true(seen > 100);
+    free(state);
+    free(value);
+    model_free(&model);
+    from_deck_free(&deck);
+    return worst;
+}
+
+static void test_strains_of_snapshots(void **state)
+{
+    (void)state;
+    static const double dip[] = {0, 5, 20, 40}; /* .63 to .83 without (G34) */
+    for (size_t i = 0; i < sizeof dip / sizeof *dip; i++) {
+        const double most = worst_of_snapshot(2, dip[i], false);
+        if (most > (dip[i] == 0 ? .01 : .07)) fail_msg("dip %g: %g", dip[i], most);
+    }
+    assert_true(worst_of_snapshot(2, 0, true) < .01);
+    assert_true(worst_of_snapshot(2, 20, true) < .07);
+    assert_true(worst_of_snapshot(3, 0, false) < .01);
+    assert_true(worst_of_snapshot(3, 20, false) < .07);
 }
 
 int main(void)
@@ -374,6 +323,7 @@ int main(void)
         cmocka_unit_test(test_work_beside_interfaces_aslant),
         cmocka_unit_test(test_displacement_beside_interfaces),
         cmocka_unit_test(test_strains_beside_interfaces),
+        cmocka_unit_test(test_strains_of_snapshots),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -87,12 +87,11 @@ static bool read_across(const struct scene *scene, const double position[3])
 }
 
 /* How many times the shear modulus differs from that of a place within a spacing along the axes, at most. */
-static double jump_beside(const struct scene *scene, const double position[3])
+static double jump_about(const struct scene *scene, const double centre[3], double spacing)
 {
     enum { STEPS = 4 };
-    double most = 1, centre[3] = {0, 0, 0};
-    ground_from_deck(&scene->body, position, centre);
-    const double step = spacing_at(scene, position) / STEPS, here = ground_at(scene, centre).mu;
+    const double step = spacing / STEPS, here = ground_at(scene, centre).mu;
+    double most = 1;
     for (int axis = 0; axis < scene->dimension; axis++)
         for (int n = -STEPS; n <= STEPS; n++) {
             double place[3] = {centre[0], centre[1], centre[2]};
@@ -112,30 +111,36 @@ static double jump_of(const struct scene *scene, const struct profile *profile, 
         profile_position(profile, i, position);
         if (!at_jump(scene, position)) continue;
         if (!reads || !read_across(scene, position)) return INFINITY;
-        most = fmax(most, jump_beside(scene, position));
+        double centre[3] = {0, 0, 0};
+        ground_from_deck(&scene->body, position, centre);
+        most = fmax(most, jump_about(scene, centre, spacing_at(scene, position)));
     }
     return most;
 }
 
-/* A box of the lattice, as a snapshot's region is. */
+/* A box of the lattice, as a snapshot's region is, and the most that the shear modulus jumps by in it. */
 struct part {
-    double low[3], high[3];
+    double low[3], high[3], *most;
 };
 
-static bool part_holds(const struct scene *scene, const void *of, const double place[3])
+/* Goes on to the next jump. */
+static bool part_sees(const struct scene *scene, const void *of, const double place[3])
 {
     const struct part *part = of;
     double lattice[3] = {place[0], place[1], place[2]};
     if (scene->body.topography != NULL) topography_to_lattice(scene->body.topography, lattice);
     for (int axis = 0; axis < 3 && axis < scene->dimension; axis++)
         if (lattice[axis] < part->low[axis] || lattice[axis] > part->high[axis]) return false;
-    return true;
+    *part->most = fmax(*part->most, jump_about(scene, place, scene->body.spacing));
+    return false;
 }
 
-/* Within a spacing of its places. */
-static bool snapshot_at_jump(const struct scene *scene, const struct snapshot *snapshot)
+/* How many times the shear modulus differs where the rock jumps within a spacing of its places, at most; 0: it does
+ * not. */
+static double jump_in(const struct scene *scene, const struct snapshot *snapshot)
 {
-    struct part part = {{0, 0, 0}, {0, 0, 0}};
+    double most = 0;
+    struct part part = {.most = &most};
     double one[3], other[3];
     ground_from_deck(&scene->body, snapshot->region_low, one);
     ground_from_deck(&scene->body, snapshot->region_high, other);
@@ -145,45 +150,49 @@ static bool snapshot_at_jump(const struct scene *scene, const struct snapshot *s
         part.low[axis] = snapshot->whole ? scene->body.low[axis] : fmax(low, scene->body.low[axis]);
         part.high[axis] = snapshot->whole ? scene->body.high[axis] : fmin(high, scene->body.high[axis]);
     }
-    return jumps_in(scene, part.low, part.high, part_holds, &part);
+    if (by_law(snapshot->fields)) jumps_in(scene, part.low, part.high, part_sees, &part);
+    return most;
 }
 
-/* What stresses read across interfaces err by, in the plane at most 1.24 (r - 1) / p^2 (regress/studies/blocks BUILD
- * stresses). */
-static bool told_of_contrast(struct adviser *adviser, const struct profile *profile, double times)
+/* What stresses across interfaces err by in the plane, at most 1.24 (r - 1) / p^2 where profiles read them
+ * (regress/studies/blocks BUILD stresses), LAW in snapshots (snapshots). */
+static bool told_of_contrast(struct adviser *adviser, const char *what, double law, double times)
 {
-    static const double seen = .1, law = 1.3;
+    static const double seen = .1;
     const struct scene *scene = adviser->scene;
     const double points = points_per_wavelength(scene), error = law * (times - 1) / (points * points);
     if (!(points > 0) || isinf(times) || !(error > seen)) return false;
     advise(adviser,
-           "profile '%s' has stress, pressure or energy across rocks of %.3g times the shear modulus: at "
+           "%s has stress, pressure or energy across rocks of %.3g times the shear modulus: at "
            "%.3g points per wavelength they err by up to about %.2g within three spacings of that; "
            "body%%spacing = %.3g would be right",
-           profile->name, times, points, fmin(1, error), scene->body.spacing * sqrt(seen / 2 / error));
+           what, times, points, fmin(1, error), scene->body.spacing * sqrt(seen / 2 / error));
     return true;
 }
 
-/* Strains of the general operator and of particles are smooth where the rock jumps, so that moduli of the place make
- * of them stresses that are not there (doc/theory/general-ground.md). Profiles on splines read them across a
- * surface. */
+/* Strains of particles, and of profiles in the general operator's ground but across one surface, are smooth where the
+ * rock jumps, so that moduli of the place make of them stresses that are not there (doc/theory/general-ground.md). */
 void look_at_fields(struct adviser *adviser)
 {
+    static const double read = 1.3, mended = 3;
     const struct scene *scene = adviser->scene;
     const bool consistent = strcmp(scene->method.variant, "consistent") == 0;
-    bool told = false;
-    char what[NAME_SIZE + 16] = "";
+    bool told = false, shown = false;
+    char what[NAME_SIZE + 16] = "", name[sizeof what];
     if (consistent ? !by_general_operator(scene) : strcmp(scene->method.variant, "total-lagrangian") != 0)
         return;
     for (size_t i = 0; i < scene->profiles; i++) {
         const double times = jump_of(scene, &scene->profile[i], consistent);
-        if (isinf(times) && what[0] == '\0')
-            snprintf(what, sizeof what, "profile '%s'", scene->profile[i].name);
-        told = told || told_of_contrast(adviser, &scene->profile[i], times);
+        snprintf(name, sizeof name, "profile '%s'", scene->profile[i].name);
+        if (isinf(times) && what[0] == '\0') memcpy(what, name, sizeof what);
+        told = told || told_of_contrast(adviser, name, read, times);
     }
-    for (size_t i = 0; i < scene->snapshots && what[0] == '\0'; i++)
-        if (by_law(scene->snapshot[i].fields) && snapshot_at_jump(scene, &scene->snapshot[i]))
-            snprintf(what, sizeof what, "&snapshot %zu", i + 1);
+    for (size_t i = 0; i < scene->snapshots; i++) {
+        const double times = jump_in(scene, &scene->snapshot[i]);
+        snprintf(name, sizeof name, "&snapshot %zu", i + 1);
+        if (!consistent && times > 0 && what[0] == '\0') memcpy(what, name, sizeof what);
+        shown = shown || (consistent && told_of_contrast(adviser, name, mended, times));
+    }
     if (what[0] == '\0') return;
     advise(adviser,
            "%s has stress, pressure or energy within a spacing of where the rock jumps: they are those of a "

@@ -234,8 +234,9 @@ struct model {
     const struct model_operator *spatial;
     const struct model_one_pass *one_pass; /* NULL: steps are made with the operator */
     const struct model_memory *memory;     /* NULL: none */
-    struct model *part; /* method/mirror.c: the part below mirror planes, whose state and functions (but for
+    struct model *part;  /* method/mirror.c: the part below mirror planes, whose state and functions (but for
                            the core) this model has: ask model_computed(); NULL: the whole body is computed */
+    struct model *whole; /* of a part of damped ground: the part that is the whole; NULL: none */
     const struct scene *scene; /* borrowed */
     size_t points;             /* points of the body that users see */
     const double *position;    /* [3 * points], deck coordinates; NULL: a lattice that fills the body, not

@@ -15,6 +15,8 @@
 /* Functions of the three axes at one place, for components that are even and odd at symmetry planes. */
 struct place {
     const struct tuned_point *at[3][2]; /* [axis][odd] */
+    const size_t *point;                /* of the lattice; NULL: none */
+    const double *position;             /* its place */
 };
 
 /* Value, and with a gradient the slopes, of one component of a control field. */
@@ -93,6 +95,17 @@ static void strains_of(const struct consistent *c, const struct probe *probe, co
             gradient[3 * i + j] = gradient[3 * j + i] = read_sites(probe, from, each, u);
 }
 
+static bool is_strained(selas_field field)
+{
+    return field == SELAS_STRAIN || field == SELAS_STRESS || field == SELAS_PRESSURE || field == SELAS_ENERGY;
+}
+
+/* The whole of damped ground. */
+static const struct consistent *whole_of(const struct consistent *c)
+{
+    return c->model.whole != NULL ? consistent_of(c->model.whole) : c;
+}
+
 /* A field in deck coordinates at one place; metric NULL: below a level surface; probe NULL: of a snapshot. */
 static void field_at(const struct consistent *c, const struct place *place, const struct probe *probe,
                      const struct metric *metric, const struct material *material, selas_field field,
@@ -114,6 +127,8 @@ static void field_at(const struct consistent *c, const struct place *place, cons
         values.displacement[component] += field == SELAS_DISPLACEMENT ? kink_of(c, probe, component, y) : 0;
         if (metric != NULL) tilt(c, metric, gradient);
     }
+    if (c->general != NULL && place->point != NULL && is_strained(field))
+        general_mend(whole_of(c), place->point, place->position, y, values.gradient);
     if (probe != NULL && probe->strains > 0) strains_of(c, probe, y, values.gradient);
     field_from_values(&c->model, material, &values, field, value);
 }
@@ -277,15 +292,15 @@ void consistent_field(struct model *model, selas_field field, const double *y, c
 {
     const struct consistent *c = consistent_of(model);
     const size_t components = (size_t)field_components(field);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(dynamic, 64)
     for (size_t p = from; p < end; p++) {
         const size_t at[3] = {p % model->grid[0], p / model->grid[0] % model->grid[1],
                               p / (model->grid[0] * model->grid[1])};
-        struct place place = {0};
+        double position[3] = {0};
+        struct place place = {.point = at, .position = position};
         for (int axis = 0; axis < c->dimension; axis++)
             for (int odd = 0; odd < 2; odd++)
                 place.at[axis][odd] = &c->lattice[axis][odd][at[axis]];
-        double position[3] = {0};
         for (int axis = 0; axis < c->dimension; axis++)
             position[axis] = lattice_position(c, axis, at[axis]);
         struct material here;

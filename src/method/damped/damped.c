@@ -271,8 +271,10 @@ selas_status damped_or_plain(const struct method *method, const struct scene *sc
     if (d == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for damped materials");
     selas_status status = ground_damping_new(scene, true, &d->damping, messages);
     if (status == SELAS_OK) status = damped_split(d, scene, messages);
-    for (size_t p = 0; p < d->parts && status == SELAS_OK; p++)
+    for (size_t p = 0; p < d->parts && status == SELAS_OK; p++) {
         status = method->create(&d->part[p].scene, &d->part[p].model, messages);
+        if (status == SELAS_OK) d->part[p].model->whole = d->part[0].model;
+    }
     if (status == SELAS_OK) status = fill(d, scene, messages);
     if (status == SELAS_OK)
         *model = &d->model;

@@ -157,6 +157,12 @@ bool general_material(struct consistent *c, double *mass);
 /* Weight of a point, with the map's Jacobian. */
 double general_weight(const struct consistent *c, const struct family *family, const size_t at[3]);
 
+/* stiffness.c: is the solid at a point of a family not isotropic? */
+bool general_is_turned(const struct family *family, const size_t at[3]);
+/* Adds its C, times the weight of the point, in Voigt's order of the slots. */
+void general_add_stiffness(const struct family *family, const size_t at[3], double factor,
+                           double stiffness[STRESSES][STRESSES]);
+
 /* hill.c: false: no memory. */
 bool general_lay_hill(struct consistent *c);
 void general_free_hill(struct consistent *c);

@@ -44,29 +44,6 @@ static void find_share(struct glut *g)
         if (fabs((double)k - at) > SEEN) share[k] = 0;
 }
 
-/* Adds C of a point of a family. */
-static void add_stiffness(const struct family *family, const size_t at[3], double factor,
-                          double stiffness[STRESSES][STRESSES])
-{
-    const size_t row = at[2] * family->n[1] + at[1], point = row * family->n[0] + at[0];
-    for (size_t r = family->first_run[row]; r < family->first_run[row + 1]; r++) {
-        const struct run_of_points *run = &family->run[r];
-        if (at[0] < run->from || at[0] >= run->from + run->count) continue;
-        const double *number = family->stiffness + run->at + at[0] - run->from;
-        for (int p = 0; p < STRESSES; p++)
-            for (int q = p; q < STRESSES; q++, number += run->count) {
-                stiffness[p][q] += factor * *number;
-                if (q != p) stiffness[q][p] += factor * *number;
-            }
-        return;
-    }
-    for (int p = 0; p < STRESSES; p++) {
-        stiffness[p][p] += factor * family->mu[point] * (p < 3 ? 2 : 1);
-        for (int q = 0; p < 3 && q < 3; q++)
-            stiffness[p][q] += factor * family->lambda[point];
-    }
-}
-
 /* C of a family in its plane `number` across, between the points about the source; 0 on ranks that do not own the
  * first of these over depth. */
 static void find_stiffness(const struct glut *g, const struct family *family, size_t number,
@@ -99,7 +76,7 @@ static void find_stiffness(const struct glut *g, const struct family *family, si
             part *= step[slot] == 1 ? rest[slot] : 1 - rest[slot];
             at[slot] = from[slot] + step[slot];
         }
-        if (part != 0) add_stiffness(family, at, part / general_weight(c, family, at), stiffness);
+        if (part != 0) general_add_stiffness(family, at, part / general_weight(c, family, at), stiffness);
     }
 }
 

@@ -73,3 +73,42 @@ void medium_part(const struct averaged *averaged, double *stiffness, double *lam
     *lambda = p33 - 2 * p66;
     if (stiffness != NULL) about_normal(averaged->normal, p11, p33, p13, p55, p66, stiffness);
 }
+
+/* The run of a row that has point i; NULL: the solid is isotropic there. */
+static const struct run_of_points *run_at(const struct family *family, size_t row, size_t i)
+{
+    size_t from = family->first_run[row], end = family->first_run[row + 1];
+    while (from < end) {
+        const size_t middle = (from + end) / 2;
+        const struct run_of_points *run = &family->run[middle];
+        if (i >= run->from && i < run->from + run->count) return run;
+        if (i < run->from)
+            end = middle;
+        else
+            from = middle + 1;
+    }
+    return NULL;
+}
+
+bool general_is_turned(const struct family *family, const size_t at[3])
+{
+    return run_at(family, at[2] * family->n[1] + at[1], at[0]) != NULL;
+}
+
+void general_add_stiffness(const struct family *family, const size_t at[3], double factor,
+                           double stiffness[STRESSES][STRESSES])
+{
+    const size_t row = at[2] * family->n[1] + at[1], point = row * family->n[0] + at[0];
+    const struct run_of_points *run = run_at(family, row, at[0]);
+    const double *number = run != NULL ? family->stiffness + run->at + at[0] - run->from : NULL;
+    for (int p = 0; p < STRESSES && run != NULL; p++)
+        for (int q = p; q < STRESSES; q++, number += run->count) {
+            stiffness[p][q] += factor * *number;
+            if (q != p) stiffness[q][p] += factor * *number;
+        }
+    for (int p = 0; p < STRESSES && run == NULL; p++) {
+        stiffness[p][p] += factor * family->mu[point] * (p < 3 ? 2 : 1);
+        for (int q = 0; p < 3 && q < 3; q++)
+            stiffness[p][q] += factor * family->lambda[point];
+    }
+}
