@@ -140,15 +140,19 @@ static void find_means(const struct consistent *c, const size_t knot[3], const d
         }
 }
 
-static void add_means(double factor, const struct pull *more, struct pull *pull)
+/* Adds so many of what the next knot has more; of what is odd across an image's plane there is none there. */
+static void add_means(double factor, const struct pull *means, const struct pull *next, int plane,
+                      struct pull *pull)
 {
-    for (int n = 0; n < 9; n++) {
-        pull->stress[n / 3][n % 3] += factor * more->stress[n / 3][n % 3];
-        pull->slope[n / 3][n % 3] += factor * more->slope[n / 3][n % 3];
-    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            if (i != j && (i == plane || j == plane)) continue;
+            pull->stress[i][j] += factor * (next->stress[i][j] - means->stress[i][j]);
+            pull->slope[i][j] += factor * (next->slope[i][j] - means->slope[i][j]);
+        }
 }
 
-/* (G33); at other ends of the lattice what the means are of goes on evenly. */
+/* (G33) */
 static void find_pull(const struct consistent *c, const size_t knot[3], const double *u, struct pull *pull)
 {
     struct pull means, next;
@@ -156,15 +160,13 @@ static void find_pull(const struct consistent *c, const size_t knot[3], const do
     *pull = means;
     for (int slot = 0; slot < 3; slot++) {
         const size_t last = c->layout[slot] != NULL ? c->layout[slot]->cells : 0;
-        size_t beside[3] = {knot[0], knot[1], knot[2]};
-        if (last == 0 || mirrors(c, knot, slot)) continue;
-        const bool inner = knot[slot] > 0 && knot[slot] < last;
+        const bool image = mirrors(c, knot, slot), inner = knot[slot] > 0 && knot[slot] < last;
         for (int side = 0; side < 2; side++) {
-            if (side == 0 ? knot[slot] == 0 : knot[slot] == last) continue;
-            beside[slot] = side == 0 ? knot[slot] - 1 : knot[slot] + 1;
+            size_t beside[3] = {knot[0], knot[1], knot[2]};
+            if (beside[slot] == (side == 0 ? 0 : last)) continue;
+            beside[slot] += side == 0 ? (size_t)-1 : 1;
             find_means(c, beside, u, &next);
-            add_means(inner ? -1. / 12 : -.5, &next, pull);
-            add_means(inner ? 1. / 12 : .5, &means, pull);
+            add_means(inner ? -1. / 12 : image ? -1. / 6 : -.5, &means, &next, image ? slot : -1, pull);
         }
     }
 }
