@@ -154,13 +154,12 @@ static double jump_in(const struct scene *scene, const struct snapshot *snapshot
     return most;
 }
 
-/* What stresses across interfaces err by in the plane, at most 1.24 (r - 1) / p^2 where profiles read them
- * (regress/studies/blocks BUILD stresses), LAW in snapshots (snapshots). */
+/* What stresses read across rocks that differ so many times err by, in parts of `law` over p^2. */
 static bool told_of_contrast(struct adviser *adviser, const char *what, double law, double times)
 {
     static const double seen = .1;
     const struct scene *scene = adviser->scene;
-    const double points = points_per_wavelength(scene), error = law * (times - 1) / (points * points);
+    const double points = points_per_wavelength(scene), error = law / (points * points);
     if (!(points > 0) || isinf(times) || !(error > seen)) return false;
     advise(adviser,
            "%s has stress, pressure or energy across rocks of %.3g times the shear modulus: at "
@@ -170,11 +169,22 @@ static bool told_of_contrast(struct adviser *adviser, const char *what, double l
     return true;
 }
 
+/* In the plane profiles err by at most 1.24 (r - 1) / p^2 (regress/studies/blocks BUILD stresses), snapshots by 6.1
+ * ln(r) / p^2, at corners of blocks by 9.6 (snapshots). */
+static double law_of_profile(double times)
+{
+    return 1.3 * (times - 1);
+}
+
+static double law_of_snapshot(const struct scene *scene, double times)
+{
+    return (scene->body.blocks > 0 || scene->body.model != NULL ? 10 : 6.2) * log(fmax(times, 1));
+}
+
 /* Strains of particles, and of profiles in the general operator's ground but across one surface, are smooth where the
  * rock jumps, so that moduli of the place make of them stresses that are not there (doc/theory/general-ground.md). */
 void look_at_fields(struct adviser *adviser)
 {
-    static const double read = 1.3, mended = 3;
     const struct scene *scene = adviser->scene;
     const bool consistent = strcmp(scene->method.variant, "consistent") == 0;
     bool told = false, shown = false;
@@ -185,13 +195,14 @@ void look_at_fields(struct adviser *adviser)
         const double times = jump_of(scene, &scene->profile[i], consistent);
         snprintf(name, sizeof name, "profile '%s'", scene->profile[i].name);
         if (isinf(times) && what[0] == '\0') memcpy(what, name, sizeof what);
-        told = told || told_of_contrast(adviser, name, read, times);
+        told = told || told_of_contrast(adviser, name, law_of_profile(times), times);
     }
     for (size_t i = 0; i < scene->snapshots; i++) {
         const double times = jump_in(scene, &scene->snapshot[i]);
         snprintf(name, sizeof name, "&snapshot %zu", i + 1);
         if (!consistent && times > 0 && what[0] == '\0') memcpy(what, name, sizeof what);
-        shown = shown || (consistent && told_of_contrast(adviser, name, mended, times));
+        shown =
+            shown || (consistent && told_of_contrast(adviser, name, law_of_snapshot(scene, times), times));
     }
     if (what[0] == '\0') return;
     advise(adviser,
