@@ -18,8 +18,8 @@ size_t readings_sites(const struct consistent *c, const struct readings *reading
  * strain, with weights of 0 where there are fewer. False: no memory. */
 bool readings_keep(struct consistent *c, const struct readings *readings, struct probe *probe);
 void readings_free(struct readings *readings);
-/* traction.c: slopes of a displacement, [3 * component + axis], at a point of the lattice beside an interface become those
- * of the rock there (G34). */
+/* traction.c: slopes of a displacement, [3 * component + axis], at a point of the lattice beside an interface become
+ * those of the rock there (G34). */
 void general_mend(const struct consistent *c, const size_t point[3], const double place[3], const double *u,
                   double gradient[9]);
 
