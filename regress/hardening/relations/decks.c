@@ -459,7 +459,7 @@ static selas_status field_apart(selas_simulation *run, selas_field field, double
         char name[24];
         snprintf(name, sizeof name, "place%zu", k);
         status = selas_receiver(run, name, field, said);
-        double *most = &worst[places.kinked[k] && field <= SELAS_ACCELERATION];
+        double *most = &worst[places.kinked[k]];
         for (size_t c = 0; status == SELAS_OK && c < components; c++)
             *most = fmax(*most, fabs(said[c] - value[nearest * components + c]) / largest);
     }
@@ -478,7 +478,7 @@ static selas_status look(selas_simulation *run, const struct task *task, const c
 }
 
 /* Does rock jump near a place, so that receivers of the general operator know kinks which fields do not (G30 of
- * doc/theory/general-ground.md)? */
+ * doc/theory/general-ground.md), and fields strains that jump, which a host's receivers do not (G34)? */
 static bool jumps_near(const struct scene *scene, const double position[3])
 {
     enum { REACH = 4, FINE = 8 }; /* spacings; places in one */
