@@ -170,7 +170,7 @@ static bool told_of_contrast(struct adviser *adviser, const char *what, double l
 }
 
 /* In the plane profiles err by at most 1.24 (r - 1) / p^2 (regress/studies/blocks BUILD stresses), snapshots by 6.1
- * ln(r) / p^2, at corners of blocks by 9.6 (snapshots). */
+ * ln(r) / p^2, at corners of blocks by 10.4 (snapshots). */
 static double law_of_profile(double times)
 {
     return 1.3 * (times - 1);
@@ -178,7 +178,7 @@ static double law_of_profile(double times)
 
 static double law_of_snapshot(const struct scene *scene, double times)
 {
-    return (scene->body.blocks > 0 || scene->body.model != NULL ? 10 : 6.2) * log(fmax(times, 1));
+    return (scene->body.blocks > 0 || scene->body.model != NULL ? 11 : 6.2) * log(fmax(times, 1));
 }
 
 /* Strains of particles, and of profiles in the general operator's ground but across one surface, are smooth where the
