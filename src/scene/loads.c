@@ -222,8 +222,7 @@ static void read_body_force(struct builder *builder, const struct deck_group *gr
     need_direction(builder, group, "direction", kinds[load->kind], load->direction);
 }
 
-/* The unit double couple of a strike (from x towards y), a dip and a rake in degrees, z down (Aki & Richards 2002,
- * box 4.4). */
+/* Eq S11a of doc/reference/scene.md for M_0 = 1. */
 static void couple_of(const double angle[3], double moment[6])
 {
     double sine[3], cosine[3], sine_2[3], cosine_2[3];
