@@ -2,6 +2,7 @@
 #include "api_scene.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static const char plate[] =
     "&scene dimension = 2, end_time = 3 /\n"
@@ -252,6 +253,31 @@ static void test_past_the_end(void **state)
     remove(path);
 }
 
+/* Stresses of a receiver beside an interface are those of a smooth strain, and that is said once; others are not. */
+static void test_smooth_strains(void **state)
+{
+    (void)state;
+    static const char *const said = "mid-run are those of a strain";
+    static const char block[] =
+        "&material name = 'soil', density = 1, lambda = .3, mu = .2 /\n"
+        "&block material = 'soil', centre = 0, 1, size = 2, 1 /\n"
+        "&load kind = 'body-force', shape = 'point', centre = -1, 2, direction = 1, 0, history = 'gaussian', "
+        "width = 1, delay = 5 /\n"
+        "&receiver name = 'far', position = -1.5, 2.5 /\n";
+    double value[6];
+    selas_simulation *simulation = open_with(plate, block);
+    assert_int_equal(selas_advance(simulation, 1), SELAS_OK);
+    assert_int_equal(selas_receiver(simulation, "far", SELAS_STRESS, value), SELAS_OK);
+    assert_int_equal(selas_receiver(simulation, "r", SELAS_VELOCITY, value), SELAS_OK);
+    assert_null(strstr(selas_message(simulation), said));
+    assert_int_equal(selas_receiver(simulation, "r", SELAS_STRESS, value), SELAS_OK);
+    assert_int_equal(selas_receiver(simulation, "r", SELAS_ENERGY, value), SELAS_OK);
+    const char *first = strstr(selas_message(simulation), said);
+    assert_non_null(first);
+    assert_null(strstr(first + 1, said));
+    selas_close(&simulation);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -262,6 +288,7 @@ int main(void)
         cmocka_unit_test(test_advice_on_driven),
         cmocka_unit_test(test_sides_hold),
         cmocka_unit_test(test_means_beyond_mirrors),
+        cmocka_unit_test(test_smooth_strains),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

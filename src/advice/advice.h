@@ -7,5 +7,8 @@
 /* Tells each thing (key "warning") and what would be right, and how many there are; tell may be NULL. */
 size_t advice_tell(const struct scene *scene, const struct stepper *stepper,
                    void (*tell)(void *context, const char *key, const char *value), void *context);
+/* Are a field's values of a host's receiver at a place made from a strain that is smooth where the rock jumps, within a
+ * spacing? */
+bool advice_smooth_strain(const struct scene *scene, const double position[3], selas_field field);
 
 #endif

@@ -1,4 +1,5 @@
 /* Stresses, pressures and energies where the rock jumps. */
+#include "advice/advice.h"
 #include "advice/parts.h"
 
 #include "scene/ground.h"
@@ -24,6 +25,19 @@ static bool at_jump(const struct scene *scene, const double position[3])
         if (jumps_on(scene, place, axis, place[axis] - spacing, place[axis] + spacing, NULL, NULL))
             return true;
     return false;
+}
+
+/* Is the material's law that of the place, and the strain smooth across the rock's jumps but where that is mended? */
+static bool has_places_law(const struct scene *scene)
+{
+    return strcmp(scene->method.variant, "consistent") == 0
+               ? by_general_operator(scene)
+               : strcmp(scene->method.variant, "total-lagrangian") == 0;
+}
+
+bool advice_smooth_strain(const struct scene *scene, const double position[3], selas_field field)
+{
+    return by_law(1U << field) && has_places_law(scene) && at_jump(scene, position);
 }
 
 static bool differ(const struct rock one, const struct rock other)
@@ -189,8 +203,7 @@ void look_at_fields(struct adviser *adviser)
     const bool consistent = strcmp(scene->method.variant, "consistent") == 0;
     bool told = false, shown = false;
     char what[NAME_SIZE + 16] = "", name[sizeof what];
-    if (consistent ? !by_general_operator(scene) : strcmp(scene->method.variant, "total-lagrangian") != 0)
-        return;
+    if (!has_places_law(scene)) return;
     for (size_t i = 0; i < scene->profiles; i++) {
         const double times = jump_of(scene, &scene->profile[i], consistent);
         snprintf(name, sizeof name, "profile '%s'", scene->profile[i].name);

@@ -55,6 +55,18 @@ void host_looks_at(selas_simulation *simulation, const double position[3], const
     look(simulation, &place, what);
 }
 
+void host_reads(selas_simulation *simulation, const struct receiver *receiver, selas_field field)
+{
+    if (simulation->strained || !advice_smooth_strain(simulation->scene, receiver->position, field)) return;
+    simulation->strained = true;
+    warn(&simulation->messages,
+         "receiver '%s' lies within a spacing of where the rock jumps, and its stress, pressure or energy "
+         "mid-run are those of a strain that is smooth there, wrong by up to the ratio of the moduli; %s",
+         receiver->name,
+         strcmp(simulation->scene->method.variant, "consistent") == 0 ? "a &profile or a &snapshot would do"
+                                                                      : "places two spacings off would do");
+}
+
 /* --- All that was said --- */
 
 const char *selas_message(const selas_simulation *simulation)

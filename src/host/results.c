@@ -30,7 +30,9 @@ selas_status selas_receiver(selas_simulation *simulation, const char *name, sela
     size_t index = 0;
     status = find_receiver(simulation, name, &index);
     if (status != SELAS_OK) return status;
-    host_looks_at(simulation, simulation->scene->receiver[index].position, "a receiver");
+    const struct receiver *receiver = &simulation->scene->receiver[index];
+    host_looks_at(simulation, receiver->position, "a receiver");
+    host_reads(simulation, receiver, field);
     recorder_value(simulation->recorder, index, field, &simulation->state, value);
     return SELAS_OK;
 }
