@@ -87,7 +87,7 @@ refused "two layers at one depth" "begins at depth 0 already" exact input/loh1.n
 refused "a receiver at the source" "lies at a point source" exact input/loh1.nml 'receiver(3)%position=0,0,2000'
 "$selas" -q exact input/loh1.nml output%directory="$out/turned" 'layer(1)%material=rock' 'layer(1)%top=1000' 'layer(2)%material=layer' 'layer(2)%top=0'
 check "layers in any order are the same ground" cmp -s "$out/turned/r05.exact.dat" "$out/loh1/r05.exact.dat"
-"$selas" -q exact input/loh1.nml output%directory="$out/force" load%kind=body-force load%shape=point load%moment= load%direction=0,0,1 load%centre=0,0,1000
+"$selas" -q exact input/loh1.nml output%directory="$out/force" load%kind=body-force load%shape=point load%mechanism= load%direction=0,0,1 load%centre=0,0,1000
 check "a force on the interface is no error" test -s "$out/force/r01.exact.dat"
 refused "by check, too" "lies at a point source" check input/loh1.nml 'receiver(3)%position=0,0,2000'
 refused "a fast point load, by check" "a point load moves at 3; expected less" check input/moving-load.nml "load(1)%shape=point" "load(1)%size=" "load(1)%velocity=3,0,0"
