@@ -127,6 +127,22 @@ for shape in box ellipsoid; do
     for place in 1.53 1.536; do run $place wall.nml 'block(2)%material=rock' "block(1)%shape=$shape" 'block(1)%size=.006,3' "block(1)%centre=$place,2"; done
     differ "a thin $shape is there wherever it stands" 0 .01 1.53 1.536
 done
+# --- A source in the middle of a thin layer, from which the rock changes to neither side ---
+cat >middle.nml <<'END'
+&scene dimension = 2, end_time = 4 /
+&material name = 'soft', density = 1, s_speed = 1, p_speed = 1.67 /
+&material name = 'stiff', density = 1.16, s_speed = 2, p_speed = 3.4 /
+&body material = 'stiff', shape = 'half-space', low = -2.2, 0, high = 2.2, 2, spacing = .1 /
+&layer material = 'stiff', top = 0 /
+&layer material = 'soft', top = 0.6954 /
+&layer material = 'stiff', top = 0.8056 /
+&load kind = 'moment-tensor', centre = -0.01, 0.7505, moment = 0.71, -0.13, 0, 0.71, 0, 0, history = 'gaussian', width = 0.25, delay = 1.25 /
+&receiver name = 'a', position = 1.09, 0 /
+&receiver name = 'b', position = -1.69, 0.95 /
+&output history_step = 0.05, plots = F /
+END
+run thin middle.nml method%operator=general && run exact middle.nml method%operator=layered body%spacing=.05
+differ "a moment tensor in the middle of a layer 1.1 spacings thick" 0 .05 thin exact
 # --- The rim of a hole ---
 cat >hole.nml <<'END'
 &scene dimension = 2, end_time = 8 /

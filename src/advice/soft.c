@@ -15,9 +15,10 @@ struct line {
 };
 
 /* Soft layers on lines along depth, by ln(r) / p^2: r times the shear modulus is there on both sides, p points a
- * wavelength has the layer. The worst of all, and the largest within some spacings of the line's place. */
+ * wavelength has the layer. The worst of all, the largest within some spacings of the line's place, and that which it
+ * lies in. */
 struct soft {
-    double size, ratio, points, place[3], beside, within;
+    double size, ratio, points, place[3], beside, within, here;
 };
 
 /* The largest of so many values from `from` on. */
@@ -47,14 +48,15 @@ static int sample(const struct scene *scene, const double place[3], double low, 
 static void look_through(const struct scene *scene, const double place[3], struct line *line,
                          struct soft *soft)
 {
-    static const double slight = 2; /* softer ones err as the lattice does */
+    static const double slight = 2, alike = 1.1; /* softer ones err as the lattice does */
     const int axis = scene->dimension - 1;
     const double low = ground_low(&scene->body, axis), length = scene->body.high[axis] - low;
     const int count = sample(scene, place, low, length, line);
     const double step = length / count / scene->body.spacing; /* spacings */
     const int reach = (int)(thickest / 2 / step);
     const double points = points_per_wavelength(scene) / slowest_speed(scene);
-    soft->beside = soft->within = 0;
+    const double own = ground_at(scene, place).mu;
+    soft->beside = soft->within = soft->here = 0;
     for (int i = 0; i < count; i++) {
         const double stiff =
             fmin(largest(line->mu, i - reach, reach, count), largest(line->mu, i + 1, reach, count));
@@ -64,10 +66,14 @@ static void look_through(const struct scene *scene, const double place[3], struc
                      away = fabs(depth - place[axis]) / scene->body.spacing - thickest / 2;
         if (away < source_near) soft->beside = fmax(soft->beside, size);
         if (away < 0) soft->within = fmax(soft->within, size);
+        if (away < 0 && line->mu[i] > own / alike && line->mu[i] < own * alike)
+            soft->here = fmax(soft->here, size);
         if (size <= soft->size) continue;
-        *soft = (struct soft){size,         stiff / line->mu[i], p, {place[0], place[1], place[2]},
-                              soft->beside, soft->within};
-        soft->place[axis] = depth;
+        soft->size = size;
+        soft->ratio = stiff / line->mu[i];
+        soft->points = p;
+        for (int n = 0; n < 3; n++)
+            soft->place[n] = n == axis ? depth : place[n];
     }
 }
 
@@ -88,12 +94,12 @@ static bool leans(const struct scene *scene, const struct soft *soft, struct lin
     return found;
 }
 
-/* What a load in a soft layer or beside it sends errs by, in parts of ln(r) / p^2. */
-static double law_of(const struct load *load)
+/* What a load beside a soft layer sends errs by, or one in it by what the layer guides, in parts of ln(r) / p^2. */
+static double law_of(const struct load *load, bool guided)
 {
-    static const double of_forces = 1.1, of_moments = 3;
-    if (load->kind == LOAD_MOMENT_TENSOR) return of_moments;
-    return load->shape == LOAD_POINT ? of_forces : 0;
+    static const double of_forces[] = {1.1, 2.3}, of_moments[] = {3, 4.7};
+    if (load->kind == LOAD_MOMENT_TENSOR) return of_moments[guided];
+    return load->shape == LOAD_POINT ? of_forces[guided] : 0;
 }
 
 /* Lines through loads and receivers. Measured (regress/studies/blocks, `soft`): what comes by such a layer, what is
@@ -105,7 +111,7 @@ void look_at_soft_layers(struct adviser *adviser)
     const struct scene *scene = adviser->scene;
     const size_t places = scene->loads + scene->receivers, stride = 1 + places / LINES;
     struct soft soft = {.size = 0};
-    double sent = 0, received = 0;
+    double sent = 0, guided = 0, received = 0;
     if (scene_has_exact(scene) || !by_general_operator(scene) || !(points_per_wavelength(scene) > 0)) return;
     struct line *line = array_new(1, sizeof *line);
     for (size_t n = 0; n < places && line != NULL; n += stride) {
@@ -114,12 +120,15 @@ void look_at_soft_layers(struct adviser *adviser)
         ground_from_deck(&scene->body,
                          load ? scene->load[n].centre : scene->receiver[n - scene->loads].position, place);
         look_through(scene, place, line, &soft);
-        if (load)
-            sent = fmax(sent, law_of(&scene->load[n]) * soft.beside);
-        else
+        if (!load) {
             received = fmax(received, in_layer * soft.within);
+            continue;
+        }
+        sent = fmax(sent, law_of(&scene->load[n], false) * soft.beside);
+        guided = fmax(guided, law_of(&scene->load[n], true) * soft.here);
     }
     const bool steep = line != NULL && soft.size > 0 && leans(scene, &soft, line);
+    if (received > 0) sent = fmax(sent, guided);
     const double error = steep ? aslant * soft.size : fmax(sent, of_waves * soft.size) + received;
     array_free(line);
     if (!(error > (steep ? seen_aslant : seen))) return;

@@ -50,6 +50,9 @@ static inline double glut_spacing(const struct spline *spline)
 }
 /* rise.c: sets normal and across. False: the rock is the same all about the source, or a symmetry plane is near. */
 bool general_find_normal(struct glut *glut);
+/* traction.c: the eigenvector of the largest eigenvalue, by squares of squares, of a matrix without negative ones,
+ * which is used up. False: all are 0. */
+bool general_steepest(double turn[3][3], double normal[3]);
 /* settle.c: adds what makes the forces of the moment (by slot) right in ground that varies along the normal alone
  * (G28). False: no memory. */
 bool general_settle(const struct glut *glut, const struct load *load, double moment[3][3],

@@ -9,16 +9,14 @@ static double level_of(const struct rock *rock)
     return log(rock->lambda + 2 * rock->mu);
 }
 
-/* The direction in which log M rises about the source, from slopes along the lattice; the axis across is that of the
- * steepest of these. False: in none, or across a symmetry plane nearby. */
-static bool find_rise(struct glut *g)
+/* Slopes of log M about the source along the lattice, first and second ones in turn as in (G10a), under a Gaussian of
+ * variance 4: about the middle of a layer it rises to neither side. */
+static void find_slopes(const struct glut *g, double slope[4][3])
 {
     enum { REACH = 6, FINE = 3 }; /* spacings; places in one */
-    static const double slight = 1e-9;
     const struct consistent *c = g->c;
-    const struct metric metric = consistent_metric(c, g->centre);
     const int far = REACH * FINE, beside = c->dimension == 2 ? 0 : far;
-    double rise[3] = {0};
+    const struct rock own = consistent_rock_at(c, g->centre);
     for (int k = -far; k <= far; k++)
         for (int j = -beside; j <= beside; j++)
             for (int i = -far; i <= far; i++) {
@@ -28,11 +26,32 @@ static bool find_rise(struct glut *g)
                     place[axis] = g->centre[axis] + step[c->slot[axis]] * glut_spacing(c->spline[axis]);
                 const struct rock rock = consistent_rock_at(c, place);
                 const double away = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
-                const double level = level_of(&rock) * exp(-away / 8);
-                for (int slot = 0; slot < 3; slot++)
-                    rise[slot] += step[slot] * level;
+                const double level = (level_of(&rock) - level_of(&own)) * exp(-away / 8);
+                for (int one = 0; one < c->dimension; one++) {
+                    const int s = c->slot[one];
+                    slope[0][s] += step[s] * level;
+                    for (int other = 0; other < c->dimension; other++) {
+                        const int t = c->slot[other];
+                        slope[1 + s][t] += (step[s] * step[t] / 2 - (s == t ? 2 : 0)) * level;
+                    }
+                }
             }
-    const double length = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
+}
+
+/* The direction in which log M changes most about the source, from slopes along the lattice; the axis across is that of
+ * the steepest of these. False: in none, or across a symmetry plane nearby. */
+static bool find_rise(struct glut *g)
+{
+    static const double slight = 1e-9, clear = 12; /* spacings from a symmetry plane */
+    const struct consistent *c = g->c;
+    const struct metric metric = consistent_metric(c, g->centre);
+    double slope[4][3] = {{0}}, turn[3][3] = {{0}}, rise[3];
+    find_slopes(g, slope);
+    for (int n = 0; n < 36; n++)
+        turn[n / 3 % 3][n % 3] += slope[n / 9][n / 3 % 3] * slope[n / 9][n % 3];
+    if (!(turn[0][0] + turn[1][1] + turn[2][2] > slight * slight) || !general_steepest(turn, rise))
+        return false;
+    const double up = rise[0] * slope[0][0] + rise[1] * slope[0][1] + rise[2] * slope[0][2];
     for (int axis = 0; axis < c->dimension; axis++)
         if (fabs(rise[c->slot[axis]]) >= fabs(rise[c->slot[g->across]])) g->across = axis;
     const struct spline *spline = c->spline[g->across];
@@ -41,9 +60,9 @@ static bool find_rise(struct glut *g)
     metric_tilt(&metric, rise);
     const double steepest = sqrt(rise[0] * rise[0] + rise[1] * rise[1] + rise[2] * rise[2]);
     for (int slot = 0; slot < 3; slot++)
-        g->normal[slot] = steepest > 0 ? rise[slot] / steepest : 0;
-    const double near = 2 * REACH * glut_spacing(spline), at = g->centre[g->across];
-    return length > slight && !(spline->mirror[0] && at - spline->low < near) &&
+        g->normal[slot] = copysign(1, up) * rise[slot] / steepest;
+    const double near = clear * glut_spacing(spline), at = g->centre[g->across];
+    return !(spline->mirror[0] && at - spline->low < near) &&
            !(spline->mirror[1] && spline->high - at < near);
 }
 

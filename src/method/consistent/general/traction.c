@@ -1,5 +1,6 @@
 /* Strains at points of the lattice beside interfaces: what pulls there goes on where they jump
  * (doc/theory/general-ground.md, section 6). */
+#include "method/consistent/general/glut.h"
 #include "method/consistent/general/kink.h"
 #include "method/consistent/general/medium.h"
 
@@ -171,8 +172,7 @@ static void find_pull(const struct consistent *c, const size_t knot[3], const do
     }
 }
 
-/* The eigenvector of the largest eigenvalue, by squares of squares; false: there is none. */
-static bool steepest(double turn[3][3], double normal[3])
+bool general_steepest(double turn[3][3], double normal[3])
 {
     enum { SQUARES = 6 };
     int most = 0;
@@ -203,7 +203,7 @@ void general_mend(const struct consistent *c, const size_t point[3], const doubl
         knot[c->slot[axis]] = point[axis] + c->layer[2 * axis];
     if (!turned_about(c, knot)) return;
     find_pull(c, knot, u, &pull);
-    if (!steepest(pull.turn, n)) return;
+    if (!general_steepest(pull.turn, n)) return;
     const struct rock rock = consistent_rock_at(c, place); /* (G34) */
     double(*slope)[3] = pull.slope;
     for (int s = 0; s < 3; s++)
