@@ -1,8 +1,6 @@
 /* Stresses, pressures and energies where the rock jumps. */
-#include "advice/advice.h"
 #include "advice/parts.h"
 
-#include "scene/ground.h"
 #include "scene/resolution.h"
 #include "scene/topography.h"
 
@@ -40,14 +38,6 @@ bool advice_smooth_strain(const struct scene *scene, const double position[3], s
     return by_law(1U << field) && has_places_law(scene) && at_jump(scene, position);
 }
 
-static bool differ(const struct rock one, const struct rock other)
-{
-    static const double slight = .05;
-    return fabs(one.mu - other.mu) > slight * other.mu ||
-           fabs(one.lambda + 2 * one.mu - other.lambda - 2 * other.mu) >
-               slight * (other.lambda + 2 * other.mu);
-}
-
 enum { WIDE = 3, PARTS = 2, FAR = WIDE * PARTS }; /* spacings; places in one */
 
 /* Is the rock about a place that of the line along `normal` through it, but for a twentieth? */
@@ -67,7 +57,7 @@ static bool varies_along(const struct scene *scene, const double centre[3], doub
                     place[axis] = centre[axis] + step[axis];
                     line[axis] = centre[axis] + along * normal[axis];
                 }
-                other += differ(ground_at(scene, place), ground_at(scene, line));
+                other += rocks_differ(ground_at(scene, place), ground_at(scene, line));
             }
     return (double)other <= most * (double)all;
 }

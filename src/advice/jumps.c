@@ -3,7 +3,6 @@
 #include "advice/parts.h"
 
 #include "base/memory.h"
-#include "scene/ground.h"
 #include "scene/initial.h"
 #include "scene/resolution.h"
 #include "scene/topography.h"
@@ -13,20 +12,21 @@
 
 /* --- Jumps -------------------------------------------------------------------------------------------- */
 
-/* Do moduli differ on either side of a place, by more than a twentieth? */
-static bool differs(const struct scene *scene, const double place[3], int axis, double aside)
+bool rocks_differ(const struct rock one, const struct rock other)
 {
     static const double slight = .05;
-    double axial[2], shear[2];
-    for (int side = 0; side < 2; side++) {
-        double there[3] = {place[0], place[1], place[2]};
-        there[axis] += side == 0 ? -aside : aside;
-        const struct rock rock = ground_at(scene, there);
-        axial[side] = rock.lambda + 2 * rock.mu;
-        shear[side] = rock.mu;
-    }
+    const double axial[] = {one.lambda + 2 * one.mu, other.lambda + 2 * other.mu};
     return fabs(axial[1] - axial[0]) > slight * fmin(axial[0], axial[1]) ||
-           fabs(shear[1] - shear[0]) > slight * fmin(shear[0], shear[1]);
+           fabs(other.mu - one.mu) > slight * fmin(one.mu, other.mu);
+}
+
+/* Do moduli differ on either side of a place? */
+static bool differs(const struct scene *scene, const double place[3], int axis, double aside)
+{
+    double low[3] = {place[0], place[1], place[2]}, high[3] = {place[0], place[1], place[2]};
+    low[axis] -= aside;
+    high[axis] += aside;
+    return rocks_differ(ground_at(scene, low), ground_at(scene, high));
 }
 
 bool jumps_on(const struct scene *scene, const double place[3], int axis, double from, double to,

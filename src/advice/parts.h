@@ -8,6 +8,7 @@
 #define SELAS_ADVICE_PARTS_H
 
 #include "advice/advice.h"
+#include "scene/ground.h"
 
 struct adviser {
     const struct scene *scene;
@@ -53,6 +54,8 @@ double sending_begins(const struct scene *scene);
 /* The consistent method? */
 bool on_splines(const struct model *model);
 
+/* Do moduli differ by more than a twentieth (jumps.c)? */
+bool rocks_differ(struct rock one, struct rock other);
 /* Which places count, of what; NULL: all do. */
 typedef bool jump_counts(const struct scene *scene, const void *of, const double place[3]);
 /* Does the rock jump on a line through `place`, in the ground, at a place that counts (jumps.c)? */

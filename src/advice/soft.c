@@ -2,7 +2,6 @@
 #include "advice/parts.h"
 
 #include "base/memory.h"
-#include "scene/ground.h"
 #include "scene/resolution.h"
 
 #include <math.h>
