@@ -179,7 +179,7 @@ void look_at_interfaces(struct adviser *adviser)
         "farther off would do%s",
         scene->load[load].group + 1, least, reach,
         ground_is_general(scene)
-            ? ", a tenth within 7 spacings of a face, several tenths beside corners of the rock"
+            ? ", several tenths within 7 spacings of a face or beside corners of the rock"
             : " where shear moduli are 1 : 5, a tenth where they are 1 : 10",
         scene->body.spacing * least / reach,
         ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
