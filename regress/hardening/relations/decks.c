@@ -21,6 +21,7 @@
  *
  * Arguments: seed, decks. Prints a TAP line a deck, with the worst relation. */
 #include "advice/parts.h"
+#include "base/memory.h"
 #include "host/simulation.h"
 #include "scene/ground.h"
 
@@ -103,7 +104,7 @@ static size_t copy_load(struct edit *edit, size_t from)
             const bool file = strcmp(word, "file") == 0 || strcmp(word, "sources") == 0;
             char *path = file ? deck_absolute(edit->deck, said) : NULL;
             snprintf(end, room, "%s'%s'", comma, path != NULL ? path : said);
-            free(path);
+            array_free(path);
         }
         set(edit, "load(%zu)%%%s=%s", to, word, values);
     }
