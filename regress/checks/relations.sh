@@ -1,5 +1,5 @@
 #!/bin/sh
-# What every run keeps, on a dozen scenes drawn by chance and on five small decks (regress/hardening/relations/relations.c; doc/developers/robustness.md). Argument: the build
+# What every run keeps, on a dozen scenes drawn by chance and on six small decks (regress/hardening/relations/relations.c; doc/developers/robustness.md). Argument: the build
 # folder. Prints TAP.
 build=${1:-build}
 if [ ! -x "$build/test/relations" ]; then
@@ -8,5 +8,6 @@ if [ ! -x "$build/test/relations" ]; then
 fi
 "$build/test/relations" 1 12
 status=$?
-[ ! -x "$build/test/decks" ] || OMP_NUM_THREADS=1 "$build/test/decks" 1 regress/hardening/relations/decks/*.nml || status=1
+[ ! -x "$build/test/decks" ] || OMP_NUM_THREADS=1 "$build/test/decks" 1 regress/hardening/relations/decks/*.nml \
+    regress/cases/half-space-step/deck.nml || status=1
 exit $status

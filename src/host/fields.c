@@ -53,10 +53,11 @@ selas_status selas_field_values(selas_simulation *simulation, selas_field field,
     }
     host_looks_at_all(simulation);
     state_settle(simulation->stepper, &simulation->state, field == SELAS_ACCELERATION);
-    state_show(simulation->stepper, &simulation->state, true);
+    const bool moves = field == SELAS_VELOCITY || field == SELAS_ENERGY;
+    if (moves) state_show(simulation->stepper, &simulation->state, true);
     model->core->field(model, field, simulation->state.y, simulation->state.a, 0, model->points,
                        simulation->values);
-    state_show(simulation->stepper, &simulation->state, false);
+    if (moves) state_show(simulation->stepper, &simulation->state, false);
     *count = model->points;
     *components = width;
     *value = simulation->values;

@@ -183,15 +183,35 @@ struct history_rows recorder_history(const struct recorder *recorder, size_t rec
     return (struct history_rows){recorder->rows, recorder->time, recorder->trace[receiver].value};
 }
 
+/* What the scheme's velocities lack of its order, at one place. */
+static void add_shown(const struct recorder *recorder, const struct probe *probe, const struct state *state,
+                      double value[3])
+{
+    const struct scheme_class *scheme = recorder->stepper->scheme;
+    const double *of[3];
+    double part[3];
+    if (scheme->shown == NULL) return;
+    scheme->shown(recorder->stepper, state, of, part);
+    for (int k = 0; k < 3; k++) {
+        double rate[6] = {0};
+        model_observe(recorder->model, probe, SELAS_ACCELERATION, state->y, of[k], rate);
+        for (int c = 0; c < 3; c++)
+            value[c] += part[k] * rate[c];
+    }
+}
+
 void recorder_value(struct recorder *recorder, size_t receiver, selas_field field, const struct state *state,
                     double *value)
 {
     const struct probe *probe = &recorder->trace[receiver].probe;
     struct ranks *ranks = recorder->scene->ranks;
-    state_show(recorder->stepper, state, true);
-    if (probe->holder == ranks_me(ranks))
+    const bool energy = field == SELAS_ENERGY;
+    if (energy) state_show(recorder->stepper, state, true);
+    if (probe->holder == ranks_me(ranks)) {
         model_observe(recorder->model, probe, field, state->y, state->a, value);
-    state_show(recorder->stepper, state, false);
+        if (field == SELAS_VELOCITY) add_shown(recorder, probe, state, value);
+    }
+    if (energy) state_show(recorder->stepper, state, false);
     ranks_spread(ranks, probe->holder, value, (size_t)field_components(field) * sizeof *value);
 }
 

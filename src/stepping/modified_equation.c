@@ -152,16 +152,28 @@ static void again(struct stepper *stepper, struct state *state)
     leapfrog_kick(stepper, state);
 }
 
-/* v := v - dt^2/6 da/dt, with da/dt of second order from this and the last two steps. */
-static void show(const struct stepper *stepper, const struct state *state, bool shown)
+/* v - dt^2/6 da/dt, with da/dt of second order from this and the last two steps. */
+static void shown(const struct stepper *stepper, const struct state *state, const double *of[3],
+                  double part[3])
+{
+    const double factor = stepper->dt / 12.0;
+    of[0] = state->a;
+    of[1] = kept_of(stepper, state->step + 1);
+    of[2] = kept_of(stepper, state->step);
+    part[0] = -3 * factor;
+    part[1] = 4 * factor;
+    part[2] = -factor;
+}
+
+static void show(const struct stepper *stepper, const struct state *state, bool others)
 {
     const size_t n = stepper->model->unknowns;
     const double factor = stepper->dt / 12.0;
     const double *restrict a = state->a, *restrict before = kept_of(stepper, state->step + 1);
     const double *restrict earlier = kept_of(stepper, state->step);
     double *restrict v = state->y + n;
-    memcpy(shown ? own_of(stepper) : v, shown ? v : own_of(stepper), n * sizeof *v);
-    if (!shown) return;
+    memcpy(others ? own_of(stepper) : v, others ? v : own_of(stepper), n * sizeof *v);
+    if (!others) return;
 #pragma omp parallel for simd schedule(static)
     for (size_t i = 0; i < n; i++)
         v[i] -= factor * (4.0 * (a[i] - before[i]) - (a[i] - earlier[i])); /* 0 of what rests */
@@ -201,5 +213,6 @@ const struct scheme_class scheme_modified_equation = {
     .step = step,
     .again = again,
     .show = show,
+    .shown = shown,
     .finish = finish,
 };

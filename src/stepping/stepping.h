@@ -60,6 +60,9 @@ struct scheme_class {
     /* Gives the state velocities of the scheme's order, for who looks at a step; then (`shown` is false) the scheme's
      * own again, to the bit. NULL: these are of its order. */
     void (*show)(const struct stepper *stepper, const struct state *state, bool shown);
+    /* What `show` adds to the velocities: so many parts of three vectors of unknowns. NULL like it. */
+    void (*shown)(const struct stepper *stepper, const struct state *state, const double *of[3],
+                  double part[3]);
     /* Corrects a receiver's finished history in place; rows 0..n-1 are steps of dt; u, v, a: [3 * n],
      * row-major. NULL: nothing to correct. */
     selas_status (*finish)(const struct stepper *stepper, size_t n, double *u, double *v, double *a,
