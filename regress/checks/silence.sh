@@ -622,6 +622,20 @@ verdict "all its rows are read" $?
 told "a table that ends with a rest" "ends at t = 2 with 0.05, which holds" check pulse.nml $table load%file=rest.txt
 # shellcheck disable=SC2086
 told "a table that begins late with a jump" "begins at t = 1 with 0.5; before that the history is 0" check pulse.nml $table load%file=late.txt
+# shellcheck disable=SC2086
+told "and at the run" "begins at t = 1 with 0.5" -q pulse.nml $table load%file=late.txt scene%end_time=.1 output%plots=F output%directory=out
+reported "the report tells it, too, with its place" "^warning: override: the table begins at t = 1 with 0.5"
+rock='material%lambda= material%mu='
+# shellcheck disable=SC2086
+told "rock in g/cm^3 and m/s" "density = 2.7 beside shear waves of 3464 are rock in g/cm.3 and m/s" check pulse.nml $rock material%density=2.7 material%p_speed=6000 material%s_speed=3464
+# shellcheck disable=SC2086
+told "rock in kg/m^3 and km/s" "are rock in kg/m.3 and km/s" check pulse.nml $rock material%density=2700 material%p_speed=6 material%s_speed=3.464
+for one in '2.7 p 6 s 3.464' '2700 p 6000 s 3464' '1050 p 1500 s 3'; do # the last one: tissue
+    # shellcheck disable=SC2086
+    "$selas" check pulse.nml $rock material%density="${one% p*}" material%p_speed="$(expr "$one" : '.* p \(.*\) s')" material%s_speed="${one#* s }" >said 2>&1
+    grep -q '^time step: ' said && ! grep -q 'system of units' said
+    verdict "one system of units: $one" $?
+done
 samples() { # samples STEP: of a Gaussian of width .3
     awk -v step="$1" 'BEGIN { for (t = 0; t < 3; t += step) print t, exp(-((t - 1.5) / .3) ^ 2 / 2) }' >samples.txt
 }

@@ -278,6 +278,20 @@ static void write_changed(FILE *out, const struct recorder *recorder, struct mes
     warn(messages, "%s", text);
 }
 
+/* What the deck's reader warned of, with the place in the deck; all else that is warned of is told in its turn. */
+static void write_reader(FILE *out, const struct messages *messages)
+{
+    static const char mark[] = ": warning: ";
+    const char *end;
+    for (const char *line = messages->text; line != NULL && (end = strchr(line, '\n')) != NULL;
+         line = end + 1) {
+        const char *text = strstr(line, mark);
+        if (text == NULL || text > end) continue;
+        const char *rest = text + strlen(mark);
+        fprintf(out, "warning: %.*s: %.*s\n", (int)(text - line), line, (int)(end - rest), rest);
+    }
+}
+
 void recorder_summary(const struct recorder *recorder, const struct run_figures *figures, FILE *out)
 {
     write_speed_against_error(out, recorder, figures, true);
@@ -292,6 +306,7 @@ selas_status report_write(struct recorder *recorder, struct exact *exact, const 
     if (status != SELAS_OK) return status;
     FILE *out = file.file;
     provenance_tell(tell_line, out);
+    write_reader(out, messages);
     plan_tell(recorder, tell_line, out);
     hindsight_tell(recorder, tell_line, out);
     fprintf(out, "steps done: %lu\ntime reached: %.9g\n", recorder->last_step, recorder->last_time);

@@ -116,6 +116,23 @@ void material_complete(const struct scene *scene, struct material *material)
     material->s_speed = sqrt(mu / material->density);
 }
 
+/* Rock in units that are not of one system: 2.7 g/cm^3 beside m/s, 2700 kg/m^3 beside km/s. A density of 1 is of none,
+ * and what is as slow as this in m/s, gels and tissue, is lighter or has faster waves of compression. */
+static void warn_of_units(struct builder *builder, const struct deck_group *group,
+                          const struct material *material)
+{
+    const double density = material->density, speed = material->s_speed;
+    const bool light = density > 1.2 && density < 9.0 && speed > 200.0 && speed < 9e3;
+    const bool heavy = density > 1.4e3 && density < 9e3 && speed > .2 && material->p_speed < 15.0;
+    if (!light && !heavy) return;
+    deck_warning(
+        builder->deck, group, "density", builder->messages,
+        "density = %g beside shear waves of %.4g are rock in %s: what loads move and stresses are of no one "
+        "system of units; %s would be right",
+        density, speed, light ? "g/cm^3 and m/s" : "kg/m^3 and km/s",
+        light ? "kg/m^3, with forces in N and lengths in m," : "metres and seconds");
+}
+
 /* Waves of a damped solid lose energy in shear and in compression: the quality of the bulk modulus is
  * positive if q_p <= 3/4 (c_p/c_s)^2 q_s, to first order in 1/q (hence the hundredth). */
 static void read_quality(struct builder *builder, const struct deck_group *group, struct material *material)
@@ -166,8 +183,10 @@ void build_materials(struct builder *builder)
         material->density = deck_real(group, "density", 0);
         const int pair = find_pair(builder, group);
         if (pair >= 0 && read_constants(builder, group, pair, material) &&
-            check_definite(builder, group, pair, material))
+            check_definite(builder, group, pair, material)) {
             material_complete(scene, material);
+            warn_of_units(builder, group, material);
+        }
         read_quality(builder, group, material);
     }
 }
