@@ -156,9 +156,11 @@ static void plot_one(FILE *script, const struct recorder *recorder, size_t recei
     const int height = TOP + panels * one + BOTTOM;
     char name[NAME_SIZE + 16], title[512];
     plot_name(recorder, receiver, name, sizeof name);
-    snprintf(title, sizeof title, "%s%s%s%s at (%g, %g, %g)", recorder->so_far ? "UNFINISHED: " : "",
-             scene->title, scene->title[0] != '\0' ? ": " : "", place->name, told(scene, place->position[0]),
-             told(scene, place->position[1]), told(scene, place->position[2]));
+    int used = snprintf(title, sizeof title, "%s%s%s%s at ", recorder->so_far ? "UNFINISHED: " : "",
+                        scene->title, scene->title[0] != '\0' ? ": " : "", place->name);
+    for (int d = 0; d < scene->dimension && used < (int)sizeof title; d++)
+        used += snprintf(title + used, sizeof title - (size_t)used, "%s%g%s", d == 0 ? "(" : ", ",
+                         told(scene, place->position[d]), d + 1 == scene->dimension ? ")" : "");
     gnuplot_page(script, WIDTH, height, TOP, title);
     gnuplot_output(script, recorder->folder, name);
     write_data(script, recorder, receiver);
