@@ -30,7 +30,8 @@ static double lowest_frequency(const struct scene *scene)
         for (int axis = 0; axis < scene->dimension; axis++) {
             const int faces = face_holds(scene, (enum face)(2 * axis), component) +
                               face_holds(scene, (enum face)(2 * axis + 1), component);
-            held = fmax(held, faces * swing(scene, component, axis));
+            if (faces > 0) /* without it gcc 12 breaks off on AArch64 */
+                held = fmax(held, faces * swing(scene, component, axis));
         }
         least = fmin(least, held > 0 ? held : swing(scene, component, longest));
     }
