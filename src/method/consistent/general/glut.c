@@ -168,7 +168,7 @@ static void add_points(struct glut *g, const struct family *family, double (*sti
 static void curvature_line(struct glut *g, int axis, bool odd, double *line)
 {
     const struct spline *spline = g->c->spline[axis];
-    const double h = glut_spacing(spline), x = g->centre[axis];
+    const double h = glut_spacing(spline), x = g->centre[axis], small = 1e-9 * (spline->high - spline->low);
     double half = 1;
     memset(line, 0, spline->count * sizeof *line);
     for (int side = -1; side <= 1; side += 2) {
@@ -180,8 +180,10 @@ static void curvature_line(struct glut *g, int axis, bool odd, double *line)
         if (beyond[0] || beyond[1]) half = fabs(x - plane) < 1e-9 * h ? .5 : 1;
         consistent_source_line(g->c, axis, odd, true, beyond[0] || beyond[1] ? 2 * plane - place : place,
                                g->row[1]);
+        const bool on = (spline->mirror[0] && fabs(place - spline->low) <= small) ||
+                        (spline->mirror[1] && fabs(place - spline->high) <= small);
         for (size_t i = 0; i < spline->count; i++)
-            line[i] += side * sign * g->row[1][i] / h;
+            line[i] += side * sign * (on ? 2 : 1) * g->row[1][i] / h; /* there the line is half of it */
     }
     for (size_t i = 0; i < spline->count; i++)
         line[i] *= half;
