@@ -143,6 +143,24 @@ cat >middle.nml <<'END'
 END
 run thin middle.nml method%operator=general && run exact middle.nml method%operator=layered body%spacing=.05
 differ "a moment tensor in the middle of a layer 1.1 spacings thick" 0 .05 thin exact
+
+# --- A moment tensor beside an interface, half a spacing from a symmetry plane and a little more ---
+cat >plane.nml <<'END'
+&scene dimension = 2, end_time = 2.5 /
+&method operator = 'general' /
+&material name = 'soft', density = 1, lambda = 1, mu = 1 /
+&material name = 'stiff', density = 1.3, p_speed = 3.4, s_speed = 2 /
+&body material = 'stiff', low = 0, 0, high = 1.6, 1.6, spacing = .1 /
+&layer material = 'soft', top = 0 /
+&layer material = 'stiff', top = .9 /
+&boundary face = 'x-', kind = 'symmetry' /
+&load kind = 'moment-tensor', centre = .05, .87, moment = 0, 0, 0, 1, 0, 0, history = 'gaussian', width = .25, delay = 1.25 /
+&receiver name = 'a', position = .8, 0 /
+&receiver name = 'b', position = .5, .5 /
+END
+run half plane.nml
+run beside plane.nml load%centre=.0501,.87
+differ "a moment tensor half a spacing from a symmetry plane" 0 .02 half beside
 # --- The rim of a hole ---
 cat >hole.nml <<'END'
 &scene dimension = 2, end_time = 8 /

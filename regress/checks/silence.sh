@@ -267,6 +267,14 @@ untold "by the operator for layers" check soft.nml method%operator=layered
 told "a steep one" "times as soft .* err by up to about 0.1.*spacing = 0.0.* would" check soft.nml 'layer(2)%dip=30' 'layer(3)%dip=30' \
     'layer(2)%strike=-90' 'layer(3)%strike=-90' 'layer(3)%top=.863'
 
+# --- Soil two spacings thick at the surface: velocities err by .2 (a moment tensor), by .04 (a patch) ---
+sed "/rock', top = 0 /d; s/top = .632/top = 0/; s/top = .832/top = .19/; s/0, 0.732/0, .08/" soft.nml >cover.nml
+told "a moment tensor in soil at the surface" "1.9 spacings below the surface the shear modulus jumps 5.52 times.* err by up to about 0.[12].*spacing = 0.0.* or method%operator = 'layered'" check cover.nml
+sed "/&load/d" cover.nml >pressed.nml
+echo "&load face = 'y-', shape = 'square', centre = 0, 0, size = .5, direction = 0, 1, history = 'gaussian', width = .471, delay = 2.356 /" >>pressed.nml
+untold "a patch" check pressed.nml
+untold "by the operator for layers" check cover.nml method%operator=layered
+
 # --- Layers a spacing thick that go to and fro: densities 3 : 1 err by .06, by .02 at half the spacing, with sources as slow ---
 {
     cat <<'END'

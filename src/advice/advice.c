@@ -236,6 +236,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_walls(&adviser);
     look_at_stacks(&adviser);
     look_at_soft_layers(&adviser);
+    look_at_covers(&adviser);
     look_at_damped_cells(&adviser);
     look_at_columns(&adviser);
     look_at_fallen_layers(&adviser);

@@ -118,6 +118,7 @@ void look_at_weights(struct adviser *adviser);
 void look_at_walls(struct adviser *adviser);
 void look_at_stacks(struct adviser *adviser);
 void look_at_soft_layers(struct adviser *adviser);
+void look_at_covers(struct adviser *adviser);
 void look_at_damped_cells(struct adviser *adviser);
 /* Absorbing layers where dampers send nothing back. */
 void look_at_columns(struct adviser *adviser);

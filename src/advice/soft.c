@@ -2,7 +2,9 @@
 #include "advice/parts.h"
 
 #include "base/memory.h"
+#include "scene/boundary.h"
 #include "scene/resolution.h"
+#include "scene/topography.h"
 
 #include <math.h>
 
@@ -137,5 +139,79 @@ void look_at_soft_layers(struct adviser *adviser)
            "%.3g%s would be right",
            "xyz"[scene->dimension - 1], soft.place[scene->dimension - 1], soft.ratio, thickest, soft.points,
            fmin(1, error), scene->body.spacing * sqrt(seen / error),
+           ground_needs_general(scene) ? "" : " or method%operator = 'layered'");
+}
+
+/* The largest jump of the shear modulus within some spacings below the free surface. */
+struct cover {
+    double size, ratio, depth, points; /* ln(r) / p^2; spacings; p of the softer rock */
+};
+
+static double surface_at(const struct scene *scene, const double place[3])
+{
+    const struct topography *topography = scene->body.topography;
+    const double plane = ground_low(&scene->body, scene->dimension - 1);
+    return topography == NULL ? plane
+                              : topography_real(topography, topography_drop(topography, place), plane);
+}
+
+static void look_below(const struct scene *scene, const double place[3], struct line *line,
+                       struct cover *cover)
+{
+    static const double deepest = 4;
+    const double length = deepest * scene->body.spacing;
+    const double points = points_per_wavelength(scene) / slowest_speed(scene);
+    const int count = sample(scene, place, surface_at(scene, place), length, line);
+    for (int i = 1; i < count; i++) {
+        const double r = exp(fabs(log(line->mu[i] / line->mu[i - 1]))),
+                     p = points * fmin(line->speed[i], line->speed[i - 1]), size = log(r) / (p * p);
+        if (size > cover->size) *cover = (struct cover){size, r, (double)i / A_SPACING, p};
+    }
+}
+
+/* What a load sends errs by where the rock jumps below the surface, in parts of ln(r) / p^2. */
+static double law_below(const struct scene *scene, const struct load *load, double depth)
+{
+    static const double of_waves = 2, of_force = 2.4,
+                        of_moments[] = {6.3, 2.4}; /* within a spacing of it; deeper */
+    if (load->kind == LOAD_MOMENT_TENSOR) return of_moments[depth > scene->body.spacing];
+    return load->shape == LOAD_POINT ? of_force : of_waves;
+}
+
+/* Lines through loads and receivers. Measured (regress/studies/blocks, `cover` and `shallow`;
+ * doc/theory/general-ground.md, section 7). */
+void look_at_covers(struct adviser *adviser)
+{
+    enum { LINES = 50 };
+    static const double seen = .07, of_waves = 2;
+    const struct scene *scene = adviser->scene;
+    const int axis = scene->dimension - 1;
+    const size_t places = scene->loads + scene->receivers, stride = 1 + places / LINES;
+    struct cover worst = {.size = 0};
+    double error = 0;
+    if (scene_has_exact(scene) || !by_general_operator(scene) || !(points_per_wavelength(scene) > 0) ||
+        !boundary_is_free(&scene->boundary[2 * axis]))
+        return;
+    struct line *line = array_new(1, sizeof *line);
+    for (size_t n = 0; n < places && line != NULL; n += stride) {
+        const bool load = n < scene->loads;
+        double place[3] = {0, 0, 0};
+        struct cover cover = {.size = 0};
+        ground_from_deck(&scene->body,
+                         load ? scene->load[n].centre : scene->receiver[n - scene->loads].position, place);
+        look_below(scene, place, line, &cover);
+        const double depth = place[axis] - surface_at(scene, place);
+        const double here = (load ? law_below(scene, &scene->load[n], depth) : of_waves) * cover.size;
+        if (here <= error) continue;
+        error = here;
+        worst = cover;
+    }
+    array_free(line);
+    if (!(error > seen)) return;
+    advise(adviser,
+           "%.2g spacings below the surface the shear modulus jumps %.3g times: at %.3g points per "
+           "wavelength in "
+           "the softer rock velocities err by up to about %.2g; body%%spacing = %.3g%s would be right",
+           worst.depth, worst.ratio, worst.points, fmin(1, error), scene->body.spacing * sqrt(seen / error),
            ground_needs_general(scene) ? "" : " or method%operator = 'layered'");
 }
