@@ -214,10 +214,13 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_ligament(&adviser);
     for (size_t k = 0; k < scene->loads; k++)
         if (has_patch(&scene->load[k])) look_at_points(&adviser, stepper->model, k);
-    if (scene->body.shape != BODY_POINTS) look_at_mirrors(&adviser);
-    if (!body_is_box(&scene->body)) return adviser.count;
+    look_at_mirrors(&adviser);
     look_at_meetings(&adviser);
     look_at_receivers(&adviser);
+    look_at_beyond(&adviser);
+    for (size_t k = 0; k < scene->loads; k++)
+        look_at_absorbers(&adviser, k);
+    if (!body_is_box(&scene->body)) return adviser.count;
     look_at_nearness(&adviser);
     look_at_interfaces(&adviser);
     look_at_fields(&adviser);
@@ -229,7 +232,6 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_contrast(&adviser);
     look_at_clearance(&adviser);
     look_at_shallow(&adviser, stepper->model);
-    look_at_beyond(&adviser);
     look_at_rests(&adviser);
     look_at_late(&adviser);
     look_at_weights(&adviser);
@@ -243,9 +245,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_levelled(&adviser);
     look_at_tilted(&adviser);
     look_at_grading(&adviser);
-    for (size_t k = 0; k < scene->loads; k++) {
-        look_at_absorbers(&adviser, k);
+    for (size_t k = 0; k < scene->loads; k++)
         if (!outruns_rayleigh(&adviser, k)) look_at_passed(&adviser, k);
-    }
     return adviser.count;
 }

@@ -163,7 +163,7 @@ void look_at_bending(struct adviser *adviser, const struct model *model, double 
     const struct wave_law *law = &model->waves;
     double worst = 0, points = 0;
     int axis = 0;
-    if (!body_is_box(&scene->body) || !(law->bends > 0)) return;
+    if (!(law->bends > 0)) return;
     for (int across = 0; across < scene->dimension; across++)
         for (int along = 0; along < scene->dimension; along++) {
             const struct bending bending = {scene, along, across};

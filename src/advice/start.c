@@ -249,7 +249,6 @@ void look_at_cut_start(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
     const double width = scene->initial.width;
-    if (!body_is_box(&scene->body)) return;
     if (scene->initial.kind == INITIAL_PLANE_WAVE && !scene_has_exact(scene)) look_at_cut_wave(adviser);
     if (scene->initial.kind != INITIAL_GAUSSIAN) return;
     for (int face = 0; face < 2 * scene->dimension; face++) {
@@ -274,7 +273,7 @@ void look_at_impact(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
     double velocity[3];
-    if (scene->initial.kind != INITIAL_UNIFORM_VELOCITY || !body_is_box(&scene->body)) return;
+    if (scene->initial.kind != INITIAL_UNIFORM_VELOCITY) return;
     body_direction_from_deck(&scene->body, scene->initial.velocity, velocity);
     for (int face = 0; face < 2 * scene->dimension; face++)
         for (int component = 0; component < scene->dimension; component++) {
