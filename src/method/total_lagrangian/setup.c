@@ -307,10 +307,12 @@ struct wave_law tl_waves(const struct tl_model *tl)
         return (struct wave_law){
             .constant = 44, .order = 2, .sent = 35, .sent_order = 2, .bends = .4, .bends_order = 2};
     const double loose = 1 + 0.55 / fmax(1e-3, options->hourglass);
-    const double scatter = tl->cloud->grid[0] > 0 ? 0 : loose * disorder(tl);
-    return (struct wave_law){.constant = 44 * dispersion(tl),
+    const bool lattice = tl->cloud->grid[0] > 0;
+    const double scatter = lattice ? 0 : loose * disorder(tl);
+    const double lost = dispersion(tl) * (lattice ? 1 : cloud_mean_power(tl->cloud, 2));
+    return (struct wave_law){.constant = 44 * lost,
                              .order = 2,
-                             .sent = 48 * dispersion(tl),
+                             .sent = 48 * lost,
                              .sent_order = 2,
                              .floor = scatter,
                              .scatter = scatter,

@@ -126,24 +126,34 @@ static void choose_lengths(struct updated *updated)
     updated->repulsive = options->artificial_stress > 0;
 }
 
-/* One smoothing length as published, except on the graded arrangement, where the spacing changes several-fold
- * and the length follows it: with one length the kernel reaches too few particles where they are far apart
+/* One smoothing length as published, except where the spacing changes several-fold, on the graded arrangement and
+ * in files, and the length follows it: with one length the kernel reaches too few particles where they are far apart
  * and smears the stress where they are close. On even arrangements the volumes tell of noise only. */
 static selas_status choose_own_lengths(struct updated *updated, struct messages *messages)
 {
+    static const double graded = 1.3;
     const struct cloud *cloud = updated->cloud;
+    const struct body *body = &updated->model.scene->body;
+    double shortest = INFINITY;
+    selas_status status = SELAS_OK;
     updated->length = array_new(cloud->points, sizeof(double));
     if (updated->length == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", cloud->points);
-    const struct body *body = &updated->model.scene->body;
-    updated->even = body->shape != BODY_PLATE_WITH_HOLE || body->arrangement != ARRANGEMENT_CONFORMAL;
-    updated->longest = updated->even ? 1 : 0;
+    for (size_t i = 0; i < cloud->points; i++)
+        updated->length[i] = pow(cloud->volume[i], 1.0 / updated->dimension);
+    if (body->shape == BODY_POINTS) status = cloud_local_spacing(cloud, updated->length, messages);
     for (size_t i = 0; i < cloud->points; i++) {
-        updated->length[i] =
-            updated->even ? 1 : pow(cloud->volume[i], 1.0 / updated->dimension) / cloud->spacing;
+        updated->length[i] /= cloud->spacing;
+        shortest = fmin(shortest, updated->length[i]);
         updated->longest = fmax(updated->longest, updated->length[i]);
     }
-    return SELAS_OK;
+    updated->even = body->shape == BODY_POINTS
+                        ? updated->longest < graded * shortest
+                        : body->shape != BODY_PLATE_WITH_HOLE || body->arrangement != ARRANGEMENT_CONFORMAL;
+    for (size_t i = 0; i < cloud->points && updated->even; i++)
+        updated->length[i] = 1;
+    if (updated->even) updated->longest = 1;
+    return status;
 }
 
 static selas_status take_memory(struct updated *updated, struct messages *messages)
@@ -227,10 +237,12 @@ static struct wave_law waves_of(const struct updated *updated, double disorder)
         kernel_dispersion(options->kernel, updated->dimension, options->smoothing_length, 0); /* (2.1) */
     const double scatter = 50 / (1 + 10 * options->hourglass) * disorder / updated->dimension;
     const bool thick = options->alpha >= .5;
-    return (struct wave_law){.constant = thick ? 1.3 + 1.55 * options->alpha : 44 * lost,
-                             .order = thick ? 1 : 2,
-                             .sent = thick ? 1.7 + 2 * options->alpha : 86 * lost,
-                             .sent_order = thick ? 1 : 2,
+    const int order = thick ? 1 : 2;
+    const double coarser = cloud_mean_power(updated->cloud, order);
+    return (struct wave_law){.constant = coarser * (thick ? 1.3 + 1.55 * options->alpha : 44 * lost),
+                             .order = order,
+                             .sent = coarser * (thick ? 1.7 + 2 * options->alpha : 86 * lost),
+                             .sent_order = order,
                              .floor = .5 * options->artificial_stress + scatter,
                              .scatter = scatter,
                              .bends = 1,
