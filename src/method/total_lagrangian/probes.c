@@ -45,8 +45,9 @@ static selas_status fit_at(struct tl_model *tl, const double place[3], size_t gh
 {
     double work[FIT_TERMS * TL_PROBE_ROOM];
     const size_t wanted = tl_wanted(tl);
-    const size_t near = neighbours_at(&tl->near, place, tl->cloud->points, tl->found);
+    size_t near = neighbours_at(&tl->near, place, tl->cloud->points, tl->found);
     const size_t nearest = neighbours_nearest(&tl->near, place);
+    if (tl_has_gaps(tl) && near > 0) near = tl_connected(tl, nearest, near, tl->found);
     const double spacing = nearest < tl->cloud->points ? tl->spacing[nearest] : tl->cloud->spacing;
     double radius = tl_radius(tl) * spacing / tl->cloud->spacing;
     while (radius <= tl->near.radius * (1 + 1e-9)) {

@@ -141,9 +141,9 @@ size_t tl_wanted(const struct tl_model *tl)
 /* Gradient weights of point i into work->gradient; returns how many sites they take, 0 if no radius up to
  * `most` will do, SIZE_MAX if there is no memory. Quadratic gradients at faces and corners grow their radius
  * until they have as many neighbours as inside: a one-sided fit over few points has large weights, which
- * would limit the time step. */
+ * would limit the time step. With `apart` sites across gaps are left out. */
 static size_t fit_point(const struct tl_model *tl, const struct neighbours *near, size_t i, double most,
-                        struct tl_work *work)
+                        bool apart, struct tl_work *work)
 {
     const double reach = tl_radius(tl) / tl->cloud->spacing;
     const bool quadratic = tl->options.degree == 2;
@@ -153,10 +153,14 @@ static size_t fit_point(const struct tl_model *tl, const struct neighbours *near
     bool done = false;
     bool cut = false;
     if (!tl_find_near(tl, near, i, found, work)) return SIZE_MAX;
+    if (apart) work->found = tl_connected(tl, i, work->found, work->near);
     if (tl->options.central)
         return tl_central_row(tl, work->near, work->found, i, work->index, work->gradient);
     for (; !done && radius <= most * (1 + 1e-12); radius *= 1.03) {
-        if (radius > found && !tl_find_near(tl, near, i, found = most, work)) return SIZE_MAX;
+        if (radius > found) {
+            if (!tl_find_near(tl, near, i, found = fmin(most, 1.5 * radius), work)) return SIZE_MAX;
+            if (apart) work->found = tl_connected(tl, i, work->found, work->near);
+        }
         count = collect(tl, i, radius, weight_exponent(tl, cut), work);
         cut = cut || count < wanted;
         if (count < wanted && radius * 1.03 < most) continue;
@@ -193,7 +197,9 @@ selas_status tl_fill_gradient(struct tl_making *making, struct messages *message
         struct tl_like like;
         tl_likes(tl, i, layers, &like);
         if (tl_rows_share(tl, rows, i, &like, false)) continue;
-        const size_t count = fit_point(tl, &making->near, i, most, work);
+        size_t count = fit_point(tl, &making->near, i, most, tl_has_gaps(tl), work);
+        if (count == 0 && tl_has_gaps(tl)) /* points far apart along one axis */
+            count = fit_point(tl, &making->near, i, most, false, work);
         if (count == 0)
             return fail(
                 messages, SELAS_BAD_SCENE,
