@@ -81,8 +81,8 @@ void points_warn_of_spacing(const struct cloud *cloud, const struct body *body, 
 /* Warns of places of the box without a point within a spacing (position in the body's frame). */
 selas_status points_warn_of_gaps(const struct body *body, int dimension, size_t points,
                                  const double *position, struct messages *messages);
-/* points/local_spacing.c: spacing about each point, [points]: the d-th root of the mean volume of the points within three
- * of its own spacings, which leaves out the noise of single volumes. SELAS_NO_MEMORY. */
+/* points/local_spacing.c: spacing about each point, [points]: the d-th root of the mean volume of the points within
+ * three of its own spacings, which leaves out the noise of single volumes. SELAS_NO_MEMORY. */
 selas_status cloud_local_spacing(const struct cloud *cloud, double *spacing, struct messages *messages);
 /* What a wave's error of an order in the spacing is on the points, over that at cloud->spacing: mean over the body of
  * (spacing / cloud->spacing)^order. */

@@ -51,6 +51,13 @@ size_t neighbours_at(const struct neighbours *neighbours, const double place[3],
 /* Point nearest to a place; neighbours->points if there is none within the radius of the last search. */
 size_t neighbours_nearest(const struct neighbours *neighbours, const double place[3]);
 
+/* Of `count` sites, ascending, those to which steps of at most 1.9 spacings lead from site `first`, itself among
+ * them, from one to the other: sites across a gap or a crack are left out. Returns how many, ascending. position:
+ * [3 * sites]. */
+typedef double point_spacing(const void *of, size_t site);
+size_t points_connected(const double *position, point_spacing *spacing, const void *of, size_t first,
+                        size_t count, uint32_t *site);
+
 /* Bytes held. */
 size_t neighbours_bytes(const struct neighbours *neighbours);
 void neighbours_free(struct neighbours *neighbours);

@@ -138,6 +138,22 @@ size_t tl_wanted(const struct tl_model *tl)
     return lattice_neighbours(tl->cloud->dimension, tl_radius(tl) / tl->cloud->spacing);
 }
 
+bool tl_has_gaps(const struct tl_model *tl)
+{
+    return tl->model.scene->body.shape == BODY_POINTS && tl->options.form == NULL;
+}
+
+static double spacing_of(const void *of, size_t site)
+{
+    const struct tl_model *tl = of;
+    return tl->spacing[tl_source(tl, site)];
+}
+
+size_t tl_connected(const struct tl_model *tl, size_t first, size_t count, uint32_t *site)
+{
+    return points_connected(tl->site_position, spacing_of, tl, first, count, site);
+}
+
 /* Gradient weights of point i into work->gradient; returns how many sites they take, 0 if no radius up to
  * `most` will do, SIZE_MAX if there is no memory. Quadratic gradients at faces and corners grow their radius
  * until they have as many neighbours as inside: a one-sided fit over few points has large weights, which

@@ -363,10 +363,9 @@ static inline size_t tl_source(const struct tl_model *tl, size_t site)
 {
     return site < tl->cloud->points ? site : tl->ghost[site - tl->cloud->points].source;
 }
-/* May a gap part the points (connected.c)? */
+/* Points across a gap of a file are no neighbours, though they lie within the reach of gradients, four spacings
+ * at faces: may there be gaps? points_connected() of the sites. */
 bool tl_has_gaps(const struct tl_model *tl);
-/* Of `count` sites, ascending, those to which steps of at most 1.9 spacings lead from site `first`, itself among them, from
- * one to the other: sites across a gap or a crack are left out. Returns how many, ascending. */
 size_t tl_connected(const struct tl_model *tl, size_t first, size_t count, uint32_t *site);
 /* Adds to tl->force of the ghosts what the hourglass pairs of own points pull at them. */
 void tl_ghost_hourglass(struct tl_model *tl);

@@ -181,7 +181,8 @@ static selas_status take_memory(struct updated *updated, struct messages *messag
     const selas_status status =
         neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
                         updated->longest * updated->reach + updated->skin, false, messages);
-    return status == SELAS_OK ? updated_choose_order(updated, messages) : status;
+    const selas_status told = status == SELAS_OK ? updated_warn_of_gaps(updated, messages) : status;
+    return told == SELAS_OK ? updated_choose_order(updated, messages) : told;
 }
 
 static void destroy(struct model *model)

@@ -206,4 +206,7 @@ void updated_power(struct model *model, const struct drive *drive, const double 
 void updated_describe(const struct model *model,
                       void (*tell)(void *context, const char *key, const char *value), void *context);
 
+/* gaps.c: warns of gaps of a file that kernels reach across at rest. */
+selas_status updated_warn_of_gaps(const struct updated *updated, struct messages *messages);
+
 #endif
