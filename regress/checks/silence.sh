@@ -610,6 +610,11 @@ told "a receiver of points at dampers" "receiver 'r' lies at the absorbing face 
 awk 'BEGIN { for (i = 0; i < 30; i++) for (j = 0; j < 3; j++) print .05 + .1 * i, .05 + .1 * j, .01 }' >strip.txt
 told "a slender body of points" "bending of a body only 3 points thick along y" check bodies.nml body%file=strip.txt body%high=3,.3 \
     body%spacing=.1 receiver%position=2,.15 boundary%width=4 boundary%delay=18 scene%end_time=120
+# Places without a body
+awk '!($1 > 2 && $2 > 2)' whole.txt >notched.txt
+told "a receiver in a notch" "receiver 'r' looks at .2.3, 2.3, 0., where there is no body" check bodies.nml body%file=notched.txt receiver%position=2.3,2.3
+"$selas" check bodies.nml body%file=notched.txt receiver%position=2,2 >said 2>&1 && ! grep -q "there is no body" said
+verdict "not at its corner" $?
 # Points that are four times as far apart on one side as on the other
 awk 'BEGIN { for (i = 0; i <= 18; i++) x[i] = 4 * (4 ^ (i / 18) - 1) / 3
     for (i = 0; i < 18; i++) { h = x[i + 1] - x[i]; n = int(4 / h + .5)
@@ -639,6 +644,7 @@ cat >plate.nml <<'END'
 &receiver name = 'r', position = 1, 1.75 /
 &output plots = .false., directory = 'out' /
 END
+told "a profile through a hole" "profile 'p' looks at .0.6, 1, 0., where there is no body" check plate.nml profile%name=p profile%from=0,1 profile%to=2,1 profile%points=21
 # 1e-3 on a rim of pi pushes a mass of 4 - pi / 4: half the acceleration times 20^2 is .19546
 untold "a traction on the hole" -q plate.nml
 awk '!/^#/ {x = $2} END {exit !(x > .193 && x < .198)}' out/r.dat

@@ -212,6 +212,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_nothing(&adviser);
     look_at_tables(&adviser, stepper);
     look_at_ligament(&adviser);
+    look_at_voids(&adviser, stepper->model);
     for (size_t k = 0; k < scene->loads; k++)
         if (has_patch(&scene->load[k])) look_at_points(&adviser, stepper->model, k);
     look_at_mirrors(&adviser);

@@ -2,8 +2,8 @@
  * waves.c (what waves err by on their way), points.c (patches on points), ringing.c (damped bodies), jumps.c
  * (states and weights where the rock jumps), fields.c (stresses there), places.c (receivers near sources, surfaces
  * before layers), layers.c (absorbing layers), mirrors.c (symmetry planes), edges.c (moved faces that meet
- * others), beyond.c (ground that goes on), stacks.c (ground that goes to and fro), soft.c (thin soft layers), bending.c
- * (slender bodies of particles). */
+ * others), voids.c (places in holes and gaps), beyond.c (ground that goes on), stacks.c (ground that goes to and
+ * fro), soft.c (thin soft layers), bending.c (slender bodies of particles). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 
@@ -94,6 +94,8 @@ void look_at_layers(struct adviser *adviser, const struct stepper *stepper);
 /* Slabs between faces that guide waves, which grow in layers. */
 void look_at_guided(struct adviser *adviser);
 void look_at_contrast(struct adviser *adviser);
+/* Places that are looked at where there is no body (voids.c). */
+void look_at_voids(struct adviser *adviser, const struct model *model);
 /* Few points between a hole and an edge. */
 void look_at_ligament(struct adviser *adviser);
 /* Loads that stay on between layers that give way, and what pulses leave there. */
