@@ -610,6 +610,20 @@ told "a receiver of points at dampers" "receiver 'r' lies at the absorbing face 
 awk 'BEGIN { for (i = 0; i < 30; i++) for (j = 0; j < 3; j++) print .05 + .1 * i, .05 + .1 * j, .01 }' >strip.txt
 told "a slender body of points" "bending of a body only 3 points thick along y" check bodies.nml body%file=strip.txt body%high=3,.3 \
     body%spacing=.1 receiver%position=2,.15 boundary%width=4 boundary%delay=18 scene%end_time=120
+# Wide stencils err at faces as the number of their points
+cat >stencil.nml <<'END'
+&scene dimension = 2, end_time = 8.6 /
+&method name = 'sph', law = 'linear', smoothing_length = 1.6 /
+&material name = 'rock', density = 1, poisson = .133, young = 2.266 /
+&body material = 'rock', low = 0, 0, high = 2.6, 2.2, spacing = .1 /
+&load kind = 'body-force', shape = 'point', centre = 1, 1, direction = .6, .8, history = 'gaussian', width = .45, delay = 2 /
+&receiver name = 'r', position = 2.5, .2 /
+&output plots = .false., directory = 'out' /
+END
+wide=$("$selas" check stencil.nml 2>&1 | sed -n 's/.*err by up to \([0-9.]*\).*/\1/p')
+usual=$("$selas" check stencil.nml method%smoothing_length= 2>&1 | sed -n 's/.*err by up to \([0-9.]*\).*/\1/p')
+awk -v w="${wide:-0}" -v u="${usual:-0}" 'BEGIN { exit !(u > 0 && w > 1.6 * u) }'
+verdict "wide stencils are told more of ($usual, $wide)" $?
 # Places without a body
 awk '!($1 > 2 && $2 > 2)' whole.txt >notched.txt
 told "a receiver in a notch" "receiver 'r' looks at .2.3, 2.3, 0., where there is no body" check bodies.nml body%file=notched.txt receiver%position=2.3,2.3

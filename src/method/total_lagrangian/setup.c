@@ -316,6 +316,13 @@ static double disorder(const struct tl_model *tl)
     return disorder_mean(sums, tl->cloud->dimension);
 }
 
+/* What quadratic gradients at faces err by, over 20 neighbours in the plane (doc/theory/sph-total-lagrangian.md, Eq
+ * 1b). */
+static double at_faces(const struct tl_model *tl)
+{
+    return pow((double)tl_wanted(tl), 2.0 / tl->cloud->dimension) / 20;
+}
+
 /* By gradients (the cloud's err as differences of nearest points, whatever its kernel). On scattered points a uniform
  * stress pushes each one aside, against hourglass control: waves are slower, whatever the spacing (measured:
  * regress/studies/bodies/pulse). */
@@ -331,10 +338,11 @@ struct wave_law tl_waves(const struct tl_model *tl)
     const double loose = 1 + 0.55 / fmax(1e-3, options->hourglass);
     const bool lattice = tl->cloud->grid[0] > 0;
     const double scatter = lattice ? 0 : loose * disorder(tl);
-    const double lost = dispersion(tl) * (lattice ? 1 : cloud_mean_power(tl->cloud, 2));
+    const double coarser = lattice ? 1 : cloud_mean_power(tl->cloud, 2);
+    const double lost = dispersion(tl) * coarser, beside = fmax(lost, at_faces(tl) * coarser);
     return (struct wave_law){.constant = 44 * lost,
                              .order = 2,
-                             .sent = 48 * lost,
+                             .sent = 48 * beside,
                              .sent_order = 2,
                              .floor = scatter,
                              .scatter = scatter,
