@@ -110,7 +110,7 @@ same-bits: $(BUILD)/selas ## all results of all cases bit for bit those of the p
 
 # Hardening
 
-.PHONY: relations stops kills instructions coverage no-memory check-sanitize check-valgrind check-leaks check-threads fuzz fuzz-build fuzz-replay
+.PHONY: relations stops kills instructions coverage no-memory check-sanitize check-sanitize-mpi check-valgrind check-leaks check-threads fuzz fuzz-build fuzz-replay
 relations: $(BUILD)/test/relations ## what every run keeps, on scenes drawn by chance (minutes): doc/developers/robustness.md
 	@regress/hardening/relations/run $(BUILD) 1 100
 
@@ -132,6 +132,9 @@ no-memory: $(BUILD)/test/test_no_memory ## each allocation of small scenes fails
 
 check-sanitize: ## all unit tests and short scripts under AddressSanitizer, UBSan and LeakSanitizer (half an hour)
 	@$(ALONE) regress/hardening/sanitize $(BUILD)/asan
+
+check-sanitize-mpi: ## what test-mpi runs under the same (an hour)
+	@$(ALONE) regress/hardening/sanitize-ranks $(BUILD)/asan
 
 check-valgrind: ## all unit tests under valgrind (more than an hour; installs valgrind)
 	@sh regress/setup leaks

@@ -34,6 +34,13 @@ same_fields() { # same_fields FOLDER: what run.h5 and the XDMF files show, alone
     h5ls -r "$work/$1/run.h5" | grep '^/[ps][on]' | cmp -s - "$work/one" && [ -s "$work/one" ] &&
         h5diff -q "$work/alone/run.h5" "$work/$1/run.h5" /snapshots && h5diff -q "$work/alone/run.h5" "$work/$1/run.h5" /points
 }
+figures() { # figures REPORT: what is the same for any number of ranks
+    grep -vE '^(date|ranks|halo bytes|planned|estimated|energy|work|threads|set-up|stepping|load balance|waiting|peak memory|bytes per point|model memory|point-steps|memory variables|passes of layers|layers skipped|warning: of )' "$1"
+}
+planned_halo() { # planned_halo REPORT: its bytes sent in the last step are those planned, for each operator call
+    awk -F ': ' '/^halo bytes a step/ { planned = $2 + 0 } /^halo bytes sent/ { sent = $2 + 0 } /^scheme/ { one = $2 == "leapfrog" || $2 == "euler" }
+        END { exit !(sent == planned || (!one && planned > 0 && 2 * sent % planned == 0)) }' "$1"
+}
 same_energies() { # same_energies FOLDER: those that its report tells, to the rounding of sums over ranks
     sed -n 's/^\(energy [^:]*\): \([^ ]*\).*/\1:\2/p; s/^\(work [^:]*\): \([^ ]*\).*/\1:\2/p' "$work/$1/report.txt" | grep -v '^energy balance' >"$work/one"
     sed -n 's/^\(energy [^:]*\): \([^ ]*\).*/\1:\2/p; s/^\(work [^:]*\): \([^ ]*\).*/\1:\2/p' "$work/alone/report.txt" |
@@ -56,6 +63,9 @@ same() { # same "RANKS..." WHAT WORDS...: histories and energies alone and on ra
         done
         [ ! -e "$work/alone/run.xdmf" ] || same_fields ranks || bad="$bad run.h5"
         same_energies ranks || bad="$bad energies"
+        figures "$work/alone/report.txt" >"$work/one"
+        figures "$work/ranks/report.txt" | cmp -s - "$work/one" || bad="$bad figures"
+        planned_halo "$work/ranks/report.txt" || bad="$bad halo"
         case $n in 1x*) ;; *x*) grep -q "^ranks: ${n%x*} x ${n#*x} blocks" "$work/ranks/report.txt" || bad="$bad grid" ;; esac
         [ "$bad" = 0 ]
         verdict $? "$what on $n ranks: same histories and energies"
@@ -73,7 +83,7 @@ one_line() { # one_line WHAT PATTERN RANKS WORDS...: exit status 2 and one line 
     shift 2
     quiet "$@"
     [ $? = 2 ] && [ "$(grep -c 'error: ' "$work/log")" = 1 ] && grep -q "error: .*$pattern" "$work/log"
-    verdict $? "$what: one line on 3 ranks"
+    verdict $? "$what: one line on $ranks ranks"
 }
 ranks_of() { # processes of the program under the launcher, in their order
     ps -eo pid=,ppid=,comm= | awk -v top="$launcher" '

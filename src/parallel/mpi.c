@@ -185,6 +185,16 @@ double ranks_waited(const struct ranks *ranks)
     return ranks == NULL ? 0 : ranks->waited;
 }
 
+/* Warnings that all ranks have are told once. */
+static void add_lines(struct messages *messages, char *text)
+{
+    char *rest;
+    for (const char *line = strtok_r(text, "\n", &rest); line != NULL; line = strtok_r(NULL, "\n", &rest)) {
+        const bool is_error = strstr(line, "error: ") != NULL;
+        messages_add(messages, is_error, !is_error, line);
+    }
+}
+
 /* The text of another rank's messages, for the first one: what it has not got before. */
 static void take_messages(struct ranks *ranks, int from, struct messages *messages)
 {
@@ -197,11 +207,9 @@ static void take_messages(struct ranks *ranks, int from, struct messages *messag
     if (ranks->me == from) ranks->told += size;
     MPI_Bcast(text, (int)size, MPI_CHAR, from, ranks->comm);
     snprintf(named, sizeof named, "on rank %d of %d:", from, ranks->count);
-    while (size > 0 && text[size - 1] == '\n')
-        text[--size] = '\0';
     if (ranks->me == 0 && size > 0) {
         messages_add(messages, false, false, named);
-        messages_add(messages, true, false, text);
+        add_lines(messages, text);
     }
     array_free(text);
 }

@@ -20,6 +20,7 @@ same 2 "layers, exact mass of degree 4, parts as thin as may be" $short
 same 3 "layers, exact mass in three dimensions, modified equation" $tall method%mass=exact stepping%scheme=modified-equation body%high=2,2,32
 quiet 3 regress/parallel/tall-exact.nml output%directory="$work/reach"
 as_planned "and a rank sends what the plan tells, its solves among it" reach
+same 2 "damped ground, exact mass" regress/parallel/tall-exact.nml "material(1)%q_p=40" "material(1)%q_s=25" "material(2)%q_p=40" "material(2)%q_s=25" "boundary(2)%layer=lysmer" "boundary(2)%layer_points=" "boundary(2)%always=" scene%end_time=.8
 same 3 "a profile of steps in one pass" $dampers "boundary(2)%layer=pml"
 same 4 "dampers, mass of sweeps" $dampers
 same 4 "moment tensor" input/buried-source.nml body%spacing=.25 load%width=.4 load%delay=.6 body%low=-2,-2,-4 body%high=2,2,4 scene%end_time=1.2

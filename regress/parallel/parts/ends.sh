@@ -2,6 +2,10 @@
 # What is refused; how runs end that go wrong.
 one_line "the variant cloud" "on one rank" 3 input/halfspace-cloud.nml
 one_line "a wrong word" "number" 3 regress/parallel/tall.nml body%spacing=wide
+thin="regress/parallel/tall-sph.nml body%spacing=.5 body%high=2,1.5,3 load(2)%centre=1,.7,1.5 receiver(2)%position=1,.7,1 receiver(3)%position=1,.7,2 profile%to=1,.75,3 snapshot(2)%region=.5,.4,.5,1.5,1.4,2.6"
+one_line "layers of points behind a damper, a plane a rank" "take fewer ranks" 7 check $thin "boundary(1)%kind=transmitting" "boundary(1)%layer=lysmer"
+[ "$(grep -c '^warning: of 7 ranks' "$work/log")" = 1 ] && [ "$(grep -c '^on rank [0-9] of 6:' "$work/log")" = 1 ]
+verdict $? "and what all ranks warn of is told once"
 wrong_words() { # wrong_words PATTERN WORDS...: a command that is wrong is told as in one process, and nothing is run
     pattern=$1
     shift

@@ -7,7 +7,7 @@ host() { # host WHAT RANKS PROGRAM: all ranks see what one alone sees
     [ "$(grep -c . "$work/host$2")" = "$2" ] && [ "$(sed 's/^rank [0-9]*://' "$work/host1" "$work/host$2" | sort -u | wc -l)" = 1 ]
     verdict $? "$1: $2 ranks see what one sees" || sed 's/^/#   /' "$work/log" | head -5
 }
-linked="-Lbuild_ -lselas-mpi -Wl,-rpath,build_"
+linked="-Lbuild_ -lselas-mpi -Wl,-rpath,build_ ${LDFLAGS:-}"
 linked=$(echo "$linked" | sed "s#build_#$(realpath "$build")#g")
 sed 's/use mpi_f08/use mpi/; s/%mpi_val//' regress/hosts/coupled_ranks.f90 >"$work/coupled_mpi.f90"
 # shellcheck disable=SC2086
@@ -17,7 +17,7 @@ sed 's/use mpi_f08/use mpi/; s/%mpi_val//' regress/hosts/coupled_ranks.f90 >"$wo
     "$mpicc" -std=c17 -Wall -Werror -Isrc -o "$work/shared_checkpoint" regress/hosts/shared_checkpoint.c $linked
 verdict $? "hosts on ranks compile (mpi_f08, mpi, C)"
 make -s -o mpi -o all BUILD="$build" PREFIX=/usr DESTDIR="$work/root" install-mpi >"$work/log" 2>&1 &&
-    "$mpicc" -std=c17 -I"$work/root/usr/include" -o "$work/installed" regress/hosts/shared_column.c -L"$work/root/usr/lib" -lselas-mpi -Wl,-rpath,"$work/root/usr/lib" 2>>"$work/log"
+    "$mpicc" -std=c17 -I"$work/root/usr/include" -o "$work/installed" regress/hosts/shared_column.c -L"$work/root/usr/lib" -lselas-mpi -Wl,-rpath,"$work/root/usr/lib" ${LDFLAGS:-} 2>>"$work/log"
 verdict $? "a host compiles with what make install-mpi has put there"
 host_saves() { # host_saves RANKS TO FROM STEPS WORDS...
     ranks=$1

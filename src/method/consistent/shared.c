@@ -140,21 +140,25 @@ void consistent_share(struct model *model, enum model_array array, struct spread
 
 /* --- What the plan tells -------------------------------------------------------------------------------- */
 
+static double operators(const struct consistent *c)
+{
+    return c->model.parts > 1 ? (double)c->model.parts : 1;
+}
+
 /* Bytes that a rank sends at each step: each operator of damped ground its own, but the velocities of steps in one pass
  * once. */
 static double halo_bytes(const struct consistent *c)
 {
     const size_t number = c->model.single ? sizeof(float) : sizeof(double);
     const struct part_fields values = part_values(c, NULL, (size_t)c->dimension, number);
-    const double operators = c->model.parts > 1 ? c->model.parts : 1;
-    return part_bytes(c, &values) * (c->model.one_pass != NULL ? 1 : operators);
+    return part_bytes(c, &values) * (c->model.one_pass != NULL ? 1 : operators(c));
 }
 
-/* And by the solves of an exact mass, to one neighbour one way or the other. */
+/* And by the solves of an exact mass, one for each operator, to one neighbour one way or the other. */
 static double solve_bytes(const struct consistent *c)
 {
     if (c->hform != NULL) return 0;
-    return c->dimension * (double)(c->plane * c->factors[0].half[DEPTH] * sizeof(double));
+    return operators(c) * c->dimension * (double)(c->plane * c->factors[0].half[DEPTH] * sizeof(double));
 }
 
 /* How many control values each part along an axis has for its own, as many as find room. */

@@ -1,0 +1,102 @@
+# A scene drawn by chance (-v seed=NUMBER): what runs on ranks, in all its kinds, on bodies long over one or two axes, so that
+# 5 ranks have work. Prints the deck. Some are refused in one process too.
+function u(a, b) { return a + (b - a) * rand() }
+function one(n) { return int(n * rand()) }
+function pick(list,   parts, n) { n = split(list, parts, " "); return parts[1 + one(n)] }
+function place(a, b,   text, i) { # each coordinate in that part of the body
+    for (i = 1; i <= d; i++) text = text (i > 1 ? ", " : "") sprintf("%.4g", high[i] * u(a, b))
+    return text
+}
+function vector(   text, i) {
+    for (i = 1; i <= d; i++) text = text (i > 1 ? ", " : "") sprintf("%.3f", u(-1, 1))
+    return text
+}
+function history(   k) {
+    k = one(5)
+    if (k == 0) return "history = 'triangle', duration = .7"
+    if (k == 1) return "history = 'ricker', frequency = 1.2, delay = .5"
+    if (k == 2) return "history = 'brune', width = .15"
+    return sprintf("history = 'gaussian', width = %.3f, delay = .5", u(.15, .3))
+}
+function load(   k, centre, moment, i) {
+    k = one(moving ? 3 : 5)
+    if (k <= 1) { # the first axis but the last one of `top` is across it
+        for (i = 1; i < d; i++) centre = centre sprintf("%.4g, ", high[i] * u(.3, .7))
+        speed = !sph && k && !single && !one(2) ? sprintf(", velocity = %.3f%s, 0", u(.2, .6), d == 3 ? sprintf(", %.3f", u(-.4, .4)) : "") : ""
+        return sprintf("&load face = '%s', shape = '%s', centre = %s%s, size = %s, direction = %s, amplitude = %g%s, %s /\n", top, k || d == 2 ? "square" : "disc",
+            centre, bumpy ? "depth = 0" : 0, d == 3 && k ? "1, .8" : ".9", vector(), strength,
+            speed, history())
+    }
+    if (k == 2) return sprintf("&load kind = 'body-force'%s, direction = %s, amplitude = %g, %s /\n", moving || (sph && one(2)) ? "" : ", shape = 'point', centre = " place(.2, .9), vector(), strength, history())
+    for (i = 0; i < 6; i++) moment = moment sprintf("%s%.3f", i ? ", " : "", d == 3 || i == 0 || i == 1 || i == 3 ? u(-1, 1) : 0)
+    return sprintf("&load kind = 'moment-tensor', centre = %s, %s, amplitude = %g, %s /\n", place(.25, .8), d == 3 && one(2) ? sprintf("mechanism = %.1f, %.1f, %.1f", u(0, 360), u(0, 90), u(-90, 90)) : "moment = " moment, strength, history())
+}
+function boundaries(   i, s, k, text) {
+    for (i = 1; i <= d; i++) for (s = 1; s <= 2; s++) {
+        k = one(mirrored && i < d ? 1 : 9)
+        face = substr("xyz", i, 1) substr("-+", s, 1)
+        if (k < 3 || (face == top && k < 7)) continue
+        if (bumpy && face == top) continue
+        text = text "&boundary face = '" face "', kind = '" (k == 3 ? "fixed' /\n" : k == 4 ? "roller' /\n" : k == 5 && !(sph && moving) ? "symmetry' /\n" : k == 6 && kind != "general" && !single && !(sph && damped) ? pick("velocity displacement") "', direction = " vector() ", amplitude = .01, history = 'gaussian', width = .2, delay = .5 /\n" : "transmitting'" (moving ? "" : sph || damper ? ", layer = 'lysmer'" : sprintf(", layer = 'pml', layer_points = %d, always = T", 3 + one(4))) " /\n")
+    }
+    return text
+}
+BEGIN {
+    srand(seed); for (i = 0; i < 10; i++) rand()
+    kind = pick("lattice lattice lattice general general points points particles")
+    sph = kind == "points" || kind == "particles"; moving = kind == "particles"
+    d = moving ? 2 : one(3) ? 3 : 2
+    h = moving ? .1 : .25; top = d == 3 ? "z-" : "y-"; strength = sph ? .02 : 1
+    damper = !one(4); damped = kind != "particles" && !one(4); mirrored = !sph && kind == "lattice" && !one(4)
+    bumpy = kind == "general" && one(2)
+    for (i = 1; i <= d; i++) high[i] = moving ? pick("2 3 4") : i == d ? (d == 3 ? pick("12 15 18") : pick("16 24 34")) : pick("1.5 2 3 4")
+    if (d == 3 && kind == "lattice" && !one(3)) { high[2] = pick("9 10"); high[3] = 9 }
+    if (kind == "points" && !one(3)) { t = high[1]; high[1] = high[d]; high[d] = t }
+    layers = moving ? 0 : one(3)
+    printf "&scene dimension = %d, end_time = %.3g%s /\n", d, moving ? .5 : u(.9, 1.3), d == 2 && !damped && kind != "general" && !one(4) ? ", plane = 'stress'" : ""
+    if (sph) {
+        printf "&method name = 'sph', variant = '%s'", moving ? "updated-lagrangian" : "total-lagrangian"
+        if (!moving) { if (damped) printf ", law = 'linear'"; else if (one(2)) printf ", law = '%s'", pick("linear neo-hookean saint-venant-kirchhoff"); if (one(2)) printf ", gradient = '%s'", pick("linear quadratic central") }
+        if (moving && one(2)) printf ", kernel = '%s'", pick("cubic wendland quintic")
+        if (!damped && !one(3)) printf ", viscosity_alpha = .5"
+        if (!one(4)) printf ", hourglass = .2"
+        print " /"
+        if (moving || !one(4)) printf "&stepping scheme = '%s' /\n", moving ? pick("euler pc2 rk4 rkc") : pick("leapfrog rk4 lsrk54")
+    } else {
+        printf "&method "
+        exact = !one(4)
+        if (kind == "lattice") {
+            if (!exact && d == 3 && !mirrored && layers == 0 && !one(2)) { single = 1; printf "precision = 'single', " }
+            else printf "mass = '%s', degree = %d, ", exact ? "exact" : pick("vc1 vc2 vc3 vc3"), exact ? 2 + one(3) : 2
+        } else if (d == 3 && !one(3)) { single = 1; printf "precision = 'single', " }
+        if (!one(4)) printf "fused = F, "
+        if (kind == "lattice" && !exact && !one(5)) printf "dissipation = .02, "
+        printf "quiet = %s /\n", pick("0 1e-12 1e-6")
+        if (one(3)) printf "&stepping scheme = '%s' /\n", pick("leapfrog leapfrog modified-equation" (damper ? " rk4" : ""))
+    }
+    split("soil clay rock", name, " ")
+    for (i = 1; i <= 3; i++) if (i == 1 || i <= layers + 1 || kind == "general") printf "&material name = '%s', density = %.3f, lambda = %.3f, mu = %.3f%s /\n", name[i], u(.9, 1.2) + .2 * i, u(.6, 1) * i, u(.8, 1.1) * i, damped ? sprintf(", q_p = %.1f, q_s = %.1f", u(22, 38), u(20, 40)) : ""
+    printf "&body name = 'b', material = 'soil', low = 0, 0%s, high = ", d == 3 ? ", 0" : ""
+    for (i = 1; i <= d; i++) printf "%s%g", (i > 1 ? ", " : ""), high[i]
+    printf ", spacing = %g%s /\n", h, sph && !one(3) ? ", jitter = .1" : ""
+    if (layers) {
+        print "&layer body = 'b', material = 'soil', top = 0 /"
+        for (i = 1; i <= layers; i++) printf "&layer body = 'b', material = '%s', top = %.4g%s%s /\n", name[i + 1], high[d] * u(.15 + .35 * (i - 1), .45 * i), kind == "general" && one(2) ? sprintf(", dip = %.3g", u(2, 15)) (d == 3 ? sprintf(", strike = %.3g", u(0, 360)) : "") : "", kind == "general" && i < layers && !one(2) ? ", bottom = 'rock'" : ""
+    }
+    if (kind == "general") {
+        print "&block material = 'rock', shape = 'ellipsoid', centre = " place(.3, .7) ", size = " (d == 3 ? "1.1, .9, 1.7 /" : "1.2, 2.1 /")
+        print "&block material = 'clay', shape = 'box', centre = " place(.3, .7) ", size = " (d == 3 ? "1.1, .9, 1.7 /" : "1.2, 2.1 /")
+        for (i = one(3); i > 0; i--) printf "&block material = '%s', shape = '%s', centre = %s, size = %s /\n", pick("clay rock"), pick("box ellipsoid"), place(.2, .8), d == 3 ? "1.1, .9, 1.7" : "1.2, 2.1"
+        s = pick("gaussian ridge canyon")
+        if (bumpy) printf "&topography shape = '%s', height = %.3g, centre = %.3g%s, width = %.3g%s /\n", s, u(.1, .4), high[1] * u(.3, .7), d == 3 && s == "gaussian" ? sprintf(", %.3g", high[2] * u(.3, .7)) : d == 3 ? sprintf(", %.3g", high[2] / 2) : "", u(.5, .9), d == 3 && s != "gaussian" ? ", azimuth = 30" : ""
+    }
+    printf "%s", boundaries()
+    if (mirrored) printf "&load face = '%s', shape = 'square', centre = %g, %s0, size = 1%s, direction = 0, %s1, history = 'gaussian', width = .2, delay = .5 /\n", top, high[1] / 2, d == 3 ? high[2] / 2 ", " : "", d == 3 ? ", 1" : "", d == 3 ? "0, " : ""
+    else for (i = 1 + one(3); i > 0; i--) printf "%s", load()
+    if (!mirrored && !one(5)) printf "&initial kind = 'gaussian', amplitude = %g, width = 1, centre = %s, direction = %s /\n", strength, place(.3, .7), vector()
+    for (i = 2 + one(3); i > 0; i--) printf "&receiver name = 'r%d', position = %s /\n", i, place(0, 1)
+    if (one(2)) printf "&profile name = 'p', from = %s, to = %s, points = 23, times = .2, %s, fields = %s /\n", place(0, .3), place(.7, 1), moving ? .44 : .8, "'velocity', 'stress'"
+    if (one(2)) printf "&snapshot every = .4, fields = 'displacement', 'velocity', 'stress' /\n"
+    if (!one(3)) printf "&snapshot times = .37, %s, fields = 'strain', 'energy', 'acceleration', region = %s, %s /\n", moving ? .48 : .81, place(.1, .3), place(.6, .9)
+    printf "&output plots = F%s /\n", one(2) ? ", history_step = .05" : ""
+}
