@@ -227,8 +227,9 @@ static void describe(const struct model *model,
     if (c->fused != NULL) {
         const struct fused *used = model->single ? c->fused->single : c->fused;
         if (used->skipped > 0) {
-            snprintf(text, sizeof text, "%.1f %% of points, all calls so far",
-                     100 * (double)used->skipped / (double)used->points);
+            snprintf(text, sizeof text, "%.1f %% of %spoints, all calls so far",
+                     100 * (double)used->skipped / (double)used->points,
+                     c->part.ranks != NULL ? "the first rank's " : "");
             tell(context, "operator skipped", text);
         }
     }
