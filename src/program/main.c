@@ -296,6 +296,7 @@ int main(int count, char **words)
     if (status == SELAS_OK) status = look_for_results(simulation, arguments.strict);
     if (status == SELAS_OK && arguments.strict) status = be_strict(simulation);
     if (status == SELAS_OK) status = carry_out(simulation, &arguments, &told);
+    if (ranks_idle(ranks)) signals_pass();
     if (simulation != NULL) status = ranks_agree(ranks, status, &simulation->messages);
     tell_messages(simulation, &told);
     selas_close(&simulation);

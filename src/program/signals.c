@@ -27,6 +27,12 @@ void signals_catch(void)
     on(SIGTERM, note, SA_RESTART | (int)SA_RESETHAND);
 }
 
+void signals_pass(void)
+{
+    on(SIGINT, SIG_IGN, 0);
+    on(SIGTERM, SIG_IGN, 0);
+}
+
 void signals_end_nothing(void)
 {
     on(SIGUSR1, note, SA_RESTART);

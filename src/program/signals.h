@@ -6,6 +6,8 @@
 
 /* From now on SIGINT and SIGTERM are remembered; a second one ends the program at once. */
 void signals_catch(void);
+/* From now on SIGINT and SIGTERM do nothing: a rank without work must not end those that take them for a stop. */
+void signals_pass(void);
 /* From now on SIGUSR1 is remembered, and a file that becomes too long is an error: neither ends the program. */
 void signals_end_nothing(void);
 /* Name of the signal that asked to stop, NULL if none did. */

@@ -66,12 +66,14 @@ apart "ulimit -f 24000" body%high=8,8,60 scene%end_time=.1 "snapshot(1)%times=.0
 told 1 2 "'out/unfinished/snapshot_0000.h5': File too large" "a disk that is full for a snapshot of one rank: one line, one of the checkpoint"
 apart "ulimit -f 24000" body%high=8,8,60 scene%end_time=.05 "snapshot(1)%times=.05" "snapshot(1)%fields='velocity','displacement'" "snapshot(2)%times=.05" "snapshot(2)%fields='strain'"
 told 1 2 "'out/run.h5'" "a disk that is full for one rank at the end: one line, one of the checkpoint"
-end() { # end SIGNAL: sent to the last rank of a long run
+end() { # end SIGNAL [WORDS...]: sent to the last rank of a long run, or with words to all ranks, the last one first
+    signal=$1
+    shift
     rm -rf "$work/long"
-    timeout 60 $mpirun -n 3 "$build/selas-mpi" -q regress/parallel/tall.nml scene%end_time=5000 output%checkpoint_every=20 output%directory="$work/long" >"$work/log" 2>&1 &
+    timeout 60 $mpirun -n 3 "$build/selas-mpi" -q "${@:-regress/parallel/tall.nml}" scene%end_time=5000 output%checkpoint_every=20 output%directory="$work/long" >"$work/log" 2>&1 &
     launcher=$!
-    while kill -0 $launcher 2>/dev/null && ! [ -e "$work/long/unfinished/checkpoint.h5" ]; do sleep .1; done
-    kill "-$1" "$(last_rank)"
+    while kill -0 $launcher 2>/dev/null && ! [ -e "$work/long/unfinished/checkpoint_before.h5" ]; do sleep .1; done
+    if [ $# = 0 ]; then kill "-$signal" "$(last_rank)"; else for rank in $(ranks_of | sort -rn); do kill "-$signal" "$rank" && sleep .3; done; fi
     began=$(date +%s)
     wait $launcher
     status=$?
@@ -83,4 +85,7 @@ verdict $? "a killed rank ends all within 10 s ($took s)"
 end TERM
 [ $status = 1 ] && [ $took -le 10 ] && grep -q '^stopped by .* at step .* the state is kept' "$work/log"
 verdict $? "a signal to one rank stops all ($took s)"
+end TERM regress/parallel/tall-mirrors.nml body%high=4,4,4 "receiver(2)%position=2.6,1.7,3.1"
+[ $status = 1 ] && [ $took -le 10 ] && grep -q '^stopped by .* at step .* the state is kept' "$work/log"
+verdict $? "a signal to all ranks stops those that work, also where others have nothing to do ($took s)"
 kills "${KILLS:-10}" regress/parallel/tall-shown.nml
