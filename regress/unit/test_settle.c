@@ -155,6 +155,14 @@ static void test_work_beside_interfaces_aslant(void **state)
             worst = fmax(worst, here);
         }
     assert_true(worst < .01); /* without (G29) up to .5 */
+    for (size_t j = 0; j < sizeof away / sizeof *away;
+         j++) /* 1.3 to 6 spacings below a free face, 2.6 to 5.5 from another */
+        for (int i = 0; i < 4; i++) {
+            const double x = -.94 + .13 * i, z = fmax(.13, 1 + x * tan(40 * M_PI / 180) + away[j]);
+            const double here = worst_work(2, 40, x, z, false);
+            if (here > .02) fail_msg("%g, %g: %g", x, z, here); /* without (G29) up to .5 */
+        }
+    assert_true(worst_work(3, 40, -.73, .36, false) < .02);
     assert_true(worst_work(3, 20, .013, 1.05, false) < .01);
     assert_true(worst_work(2, 20, .013, 1.05, true) < .01);
 }

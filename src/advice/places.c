@@ -172,17 +172,16 @@ void look_at_interfaces(struct adviser *adviser)
             }
     }
     if (least == reach) return;
-    advise(
-        adviser,
-        "load %zu is a moment tensor about %.1f spacings from where the rock changes: nearer than %.1f "
-        "velocities by the general operator may be wrong by a twentieth%s; body%%spacing = %.3g or a source "
-        "farther off would do%s",
-        scene->load[load].group + 1, least, reach,
-        ground_is_general(scene)
-            ? ", several tenths within 7 spacings of a face or beside corners of the rock"
-            : " where shear moduli are 1 : 5, a tenth where they are 1 : 10",
-        scene->body.spacing * least / reach,
-        ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
+    advise(adviser,
+           "load %zu is a moment tensor about %.1f spacings from where the rock changes: nearer than %.1f "
+           "velocities by the general operator may be wrong by a tenth%s; body%%spacing = %.3g or a source "
+           "farther off would do%s",
+           scene->load[load].group + 1, least, reach,
+           ground_is_general(scene) ? ", several tenths beside corners of the rock, within a spacing of a "
+                                      "free face or 7 of another one"
+                                    : " where shear moduli are 1 : 5, a tenth where they are 1 : 10",
+           scene->body.spacing * least / reach,
+           ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
 }
 
 /* Slope of a layer's upper face at the sides of the box, along x and y; one from a file over two spacings, of which its

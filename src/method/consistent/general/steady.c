@@ -150,6 +150,34 @@ void steady_at(const struct ground_line *line, const struct steady *steady, cons
     to_axes(line, sum, displacement);
 }
 
+void steady_pull(const struct ground_line *line, const struct steady *steady, const double place[3],
+                 const double normal[3], double pull[3])
+{
+    const int d = line->dimension, m = d - 1;
+    double local[3], part, slope[3][3] = {{0}}, spread = 0, toward[3] = {0}, sum[3] = {0};
+    ground_line_local(line, place, local);
+    const size_t n = ground_line_step(line, local[m], &part);
+    const struct slopes *before = &steady->slope_at[n], *behind = before + 1;
+    for (int i = 0; i < d; i++) {
+        slope[i][m] = (steady->shift_at[n + 1][i] - steady->shift_at[n][i]) / line->step;
+        for (int t = 0; t < m; t++) {
+            slope[i][t] = (1 - part) * before->of[t][i] + part * behind->of[t][i];
+            slope[i][m] += local[t] * (behind->of[t][i] - before->of[t][i]) / line->step;
+            for (int s = 0; s < m; s++)
+                slope[i][t] += local[s] * steady->bend[t].of[s][i];
+        }
+        spread += slope[i][i];
+        for (int axis = 0; axis < d; axis++)
+            toward[i] += line->basis[i][axis] * normal[axis];
+    }
+    for (int i = 0; i < d; i++) {
+        sum[i] = line->rock[n].lambda * spread * toward[i];
+        for (int j = 0; j < d; j++)
+            sum[i] += line->rock[n].mu * (slope[i][j] + slope[j][i]) * toward[j];
+    }
+    to_axes(line, sum, pull);
+}
+
 void steady_slopes(const struct ground_line *line, const struct steady *steady, double slopes[3][3])
 {
     const int d = line->dimension, m = d - 1;

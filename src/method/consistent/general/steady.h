@@ -24,6 +24,9 @@ void steady_free(struct steady list[STEADY_MOST]);
 /* Displacement at a place, by axis. */
 void steady_at(const struct ground_line *line, const struct steady *steady, const double place[3],
                double displacement[3]);
+/* Stress at a place times a normal. */
+void steady_pull(const struct ground_line *line, const struct steady *steady, const double place[3],
+                 const double normal[3], double pull[3]);
 /* Its slopes [component][direction] at the origin, and the acceleration, by axis. */
 void steady_slopes(const struct ground_line *line, const struct steady *steady, double slopes[3][3]);
 void steady_acceleration(const struct ground_line *line, const struct steady *steady, double acceleration[3]);

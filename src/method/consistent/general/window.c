@@ -2,7 +2,9 @@
 #include "method/consistent/general/window.h"
 
 #include "base/memory.h"
+#include "method/consistent/galerkin/surface.h"
 #include "model/short_body.h"
+#include "scene/boundary.h"
 #include "scene/topography.h"
 
 #include <math.h>
@@ -10,8 +12,10 @@
 
 enum {
     NEAR = 7,  /* cells about the source whose control values are free */
+    CLOSE = 1, /* to a free face, where the window ends */
     SHELL = 4, /* control values around these that have the exact field's */
-    FINE = 32  /* steps of the line in a spacing */
+    FINE = 32, /* steps of the line in a spacing */
+    PLACES = 8 /* in a cell of a free face, along an axis */
 };
 
 /* Does the ground go on beyond a symmetry plane across the axis as the plane's image of it? */
@@ -31,17 +35,24 @@ static bool goes_on(const struct glut *g, int axis, double plane)
     return even;
 }
 
-/* Cells of an axis, beyond symmetry planes too; false: the source is too near to an end of the body. */
-static bool take_cells(const struct glut *g, int axis, ptrdiff_t *from, ptrdiff_t *end)
+/* Cells of an axis, beyond symmetry planes too, and whether they end at free faces; false: the source is too near to
+ * another end of the body. */
+static bool take_cells(struct glut_window *w, int axis, ptrdiff_t *from, ptrdiff_t *end)
 {
+    const struct glut *g = w->glut;
     const struct spline *spline = g->c->spline[axis];
+    const struct boundary *boundary = &g->c->model.scene->boundary[2 * axis];
     const double at = (g->centre[axis] - spline->low) / glut_spacing(spline);
     double first = (double)g->c->layer[2 * axis],
            last = (double)spline->cells - (double)g->c->layer[2 * axis + 1];
     const bool graded = g->c->model.scene->body.grading != NULL && g->c->slot[axis] == DEPTH;
     if (!graded && spline->mirror[0] && goes_on(g, axis, spline->low)) first = -INFINITY;
     if (!graded && spline->mirror[1] && goes_on(g, axis, spline->high)) last = INFINITY;
-    if (at < first + NEAR || at > last - NEAR) return false;
+    const bool bare[2] = {first == 0 && boundary_is_free(&boundary[0]),
+                          last == (double)spline->cells && boundary_is_free(&boundary[1])};
+    if (at < first + (bare[0] ? CLOSE : NEAR) || at > last - (bare[1] ? CLOSE : NEAR)) return false;
+    w->bare[axis][0] = bare[0] && at < first + NEAR + SHELL;
+    w->bare[axis][1] = bare[1] && at > last - NEAR - SHELL;
     *from = (ptrdiff_t)fmax(first, floor(at) - NEAR - SHELL);
     *end = (ptrdiff_t)fmin(last, ceil(at) + NEAR + SHELL);
     return true;
@@ -97,11 +108,17 @@ static bool varies_across_alone(const struct glut_window *w)
     size_t other = 0, all = 0;
     for (int k = -far; k <= far; k++)
         for (int j = -beside; j <= beside; j++)
-            for (int i = -far; i <= far; i++, all++) {
+            for (int i = -far; i <= far; i++) {
                 const double step[3] = {(double)i / PARTS, (double)j / PARTS, (double)k / PARTS};
                 double place[3] = {0};
-                for (int axis = 0; axis < c->dimension; axis++)
+                bool within = true;
+                for (int axis = 0; axis < c->dimension; axis++) {
                     place[axis] = w->glut->centre[axis] + step[c->slot[axis]] * glut_spacing(c->spline[axis]);
+                    within = within && (!w->bare[axis][0] || place[axis] >= c->spline[axis]->low) &&
+                             (!w->bare[axis][1] || place[axis] <= c->spline[axis]->high);
+                }
+                if (!within) continue;
+                all++;
                 consistent_to_ground(c, place);
                 const struct rock is = ground_at(c->model.scene, place),
                                   *said = ground_line_at(&w->line, place);
@@ -111,18 +128,20 @@ static bool varies_across_alone(const struct glut_window *w)
     return (double)other <= most * (double)all;
 }
 
-static void place_of(const struct consistent *c, size_t i, double place[3], bool *within)
+static void place_of(const struct glut_window *w, size_t i, double place[3], bool *within)
 {
+    const struct consistent *c = w->c;
     const size_t at[3] = {i % c->n[0], i / c->n[0] % c->n[1], i / c->plane};
     *within = true;
     for (int axis = 0; axis < c->dimension; axis++) {
         const size_t k = at[c->slot[axis]];
         place[axis] = c->spline[axis]->greville[k];
-        *within = *within && k >= SHELL && k + SHELL < c->n[c->slot[axis]];
+        *within = *within && (w->bare[axis][0] || k >= SHELL) &&
+                  (w->bare[axis][1] || k + SHELL < c->n[c->slot[axis]]);
     }
 }
 
-/* Control values of a field of second order and more: u - 1/8 of its second differences. */
+/* Control values of a field of second order and more: u - 1/8 of its second differences, none at an end. */
 static void control_value(const struct glut_window *w, const struct steady *steady, const double place[3],
                           double value[3])
 {
@@ -132,7 +151,9 @@ static void control_value(const struct glut_window *w, const struct steady *stea
     steady_at(&w->line, steady, there, here);
     memcpy(value, here, sizeof here);
     for (int axis = 0; axis < c->dimension; axis++)
-        for (int side = -1; side <= 1; side += 2) {
+        for (int side = -1;
+             side <= 1 && place[axis] > c->spline[axis]->low && place[axis] < c->spline[axis]->high;
+             side += 2) {
             memcpy(there, place, sizeof there);
             there[axis] += side * glut_spacing(c->spline[axis]);
             consistent_to_ground(c, there);
@@ -140,6 +161,41 @@ static void control_value(const struct glut_window *w, const struct steady *stea
             for (int i = 0; i < c->dimension; i++)
                 value[i] -= (beside[i] - here[i]) / 8;
         }
+}
+
+/* Adds what a field pulls at the ground through a free face: it has its stress there, and the face has none. */
+static void add_pull(struct glut_window *w, const struct steady *steady, int axis, int side, double *rest)
+{
+    const struct consistent *c = w->c;
+    const int along[2] = {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}, faces = c->dimension - 1;
+    const struct spline *first = c->spline[along[0]], *second = faces == 2 ? c->spline[along[1]] : NULL;
+    const double step[2] = {glut_spacing(first) / PLACES, faces == 2 ? glut_spacing(second) / PLACES : 1};
+    const size_t count[2] = {PLACES * first->cells, faces == 2 ? PLACES * second->cells : 1};
+    const size_t stride[3] = {1, c->n[0], c->plane}, end = side == 0 ? 0 : c->n[c->slot[axis]] - 1;
+    const size_t local = (size_t)first->degree + 1;
+    struct spline_point at[2] = {{.value = {1}}, {.value = {1}}};
+    for (size_t n = 0; n < count[0] * count[1]; n++) {
+        double place[3] = {0}, normal[3] = {0}, face[3] = {0}, pull[3];
+        place[axis] = side == 0 ? c->spline[axis]->low : c->spline[axis]->high;
+        place[along[0]] = first->low + ((double)(n % count[0]) + .5) * step[0];
+        if (faces == 2) place[along[1]] = second->low + ((double)(n / count[0]) + .5) * step[1];
+        const struct metric metric = consistent_metric(c, place);
+        for (int f = 0; f < faces; f++)
+            spline_at(c->spline[along[f]], false, place[along[f]], &at[f]);
+        face[c->slot[axis]] = (side == 0 ? -1 : 1) * step[0] * step[1] * metric.jacobian;
+        metric_tilt(&metric, face);
+        for (int a = 0; a < c->dimension; a++)
+            normal[a] = face[c->slot[a]];
+        consistent_to_ground(c, place);
+        steady_pull(&w->line, steady, place, normal, pull);
+        for (size_t i = 0; i < local * (faces == 2 ? local : 1); i++) {
+            const size_t one = i % local, other = i / local;
+            const size_t number = end * stride[c->slot[axis]] + at[0].index[one] * stride[c->slot[along[0]]] +
+                                  (faces == 2 ? at[1].index[other] * stride[c->slot[along[1]]] : 0);
+            for (int a = 0; a < c->dimension; a++)
+                rest[(size_t)a * c->volume + number] += at[0].value[one] * at[1].value[other] * pull[a];
+        }
+    }
 }
 
 static void lay_field(struct glut_window *w, size_t state)
@@ -151,7 +207,7 @@ static void lay_field(struct glut_window *w, size_t state)
     for (size_t i = 0; i < c->volume; i++) {
         double place[3] = {0}, value[3] = {0};
         bool within;
-        place_of(c, i, place, &within);
+        place_of(w, i, place, &within);
         control_value(w, steady, place, value);
         for (int component = 0; component < c->dimension; component++) {
             field[(size_t)component * c->volume + i] = value[component];
@@ -160,6 +216,8 @@ static void lay_field(struct glut_window *w, size_t state)
     }
     general_weigh(c, w->work[0], w->work[1]);
     general_forces(c, field, NULL, rest);
+    for (int end = 0; end < 2 * c->dimension; end++)
+        if (w->bare[end / 2][end % 2]) add_pull(w, steady, end / 2, end % 2, rest);
     for (size_t i = 0; i < w->n; i++)
         rest[i] = w->loose[i] ? rest[i] - w->work[1][i] : 0;
 }
@@ -183,7 +241,7 @@ static bool lay_fields(struct glut_window *w)
         w->work[i] = w->weight + (size_t)(1 + i) * w->n;
     for (size_t i = 0; i < w->n; i++) {
         double place[3] = {0}, square = 0;
-        place_of(c, i % c->volume, place, &w->loose[i]);
+        place_of(w, i % c->volume, place, &w->loose[i]);
         for (int axis = 0; axis < c->dimension; axis++)
             square += pow((place[axis] - w->glut->centre[axis]) / glut_spacing(c->spline[axis]), 2);
         consistent_to_ground(c, place);
@@ -204,7 +262,7 @@ bool glut_window_fits(struct glut_window *w, ptrdiff_t end[3], bool *good)
     *good = true;
     for (int axis = 0; axis < c->dimension; axis++) {
         const int slot = c->slot[axis];
-        if (!take_cells(glut, axis, &w->from[slot], &end[slot])) return false;
+        if (!take_cells(w, axis, &w->from[slot], &end[slot])) return false;
         normal[axis] = glut->normal[slot];
         widest = fmax(widest, glut_spacing(c->spline[axis]));
     }

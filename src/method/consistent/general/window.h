@@ -21,6 +21,7 @@ struct glut_window {
     struct consistent *c; /* the model's */
     size_t n;             /* unknowns */
     ptrdiff_t from[3];    /* by slot: the whole's cell that is its first */
+    bool bare[3][2];      /* by axis: ends at a free face */
     double *field,
         *rest; /* [states][n] control values of the exact field; what these lack in balance, where free */
     double *forces, *answer, *change, *weight; /* [n] of the moment; what they do; what was added; (G28) */
