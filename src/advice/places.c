@@ -174,12 +174,13 @@ void look_at_interfaces(struct adviser *adviser)
     if (least == reach) return;
     advise(adviser,
            "load %zu is a moment tensor about %.1f spacings from where the rock changes: nearer than %.1f "
-           "velocities by the general operator may be wrong by a tenth%s; body%%spacing = %.3g or a source "
+           "velocities by the general operator may be wrong by %s; body%%spacing = %.3g or a source "
            "farther off would do%s",
            scene->load[load].group + 1, least, reach,
-           ground_is_general(scene) ? ", several tenths beside corners of the rock, within a spacing of a "
-                                      "free face or 7 of another one"
-                                    : " where shear moduli are 1 : 5, a tenth where they are 1 : 10",
+           ground_is_general(scene)
+               ? "a tenth, several tenths beside corners of the rock, within a "
+                 "spacing of a free face or 7 of another one"
+               : "a twentieth where shear moduli are 1 : 5, a tenth where they are 1 : 10",
            scene->body.spacing * least / reach,
            ground_is_general(scene) ? "" : ", or method%operator = 'layered'");
 }
