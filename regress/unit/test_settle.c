@@ -145,7 +145,7 @@ static double worst_work(int dimension, double dip, double x, double z, bool gra
 static void test_work_beside_interfaces_aslant(void **state)
 {
     (void)state;
-    static const double dip[] = {5, 20, 40}, away[] = {-.12, -.03, .03, .08};
+    static const double dip[] = {5, 20, 40}, away[] = {-.12, -.03, -.0012, .0012, .03, .08};
     double worst = 0;
     for (size_t i = 0; i < sizeof dip / sizeof *dip; i++)
         for (size_t j = 0; j < sizeof away / sizeof *away; j++) {
@@ -160,7 +160,7 @@ static void test_work_beside_interfaces_aslant(void **state)
         for (int i = 0; i < 4; i++) {
             const double x = -.94 + .13 * i, z = fmax(.13, 1 + x * tan(40 * M_PI / 180) + away[j]);
             const double here = worst_work(2, 40, x, z, false);
-            if (here > .02) fail_msg("%g, %g: %g", x, z, here); /* without (G29) up to .5 */
+            if (here > .03) fail_msg("%g, %g: %g", x, z, here); /* without (G29) up to .5 */
         }
     assert_true(worst_work(3, 40, -.73, .36, false) < .02);
     assert_true(worst_work(3, 20, .013, 1.05, false) < .01);

@@ -76,10 +76,13 @@ size_t ground_line_step(const struct ground_line *line, double along, double *pa
     return (size_t)found;
 }
 
+/* An interface within half a step of the place may lie on its other side. */
 const struct rock *ground_line_at(const struct ground_line *line, const double place[3])
 {
+    static const double here = 1e-6; /* steps */
     double local[3], part;
     ground_line_local(line, place, local);
+    if (fabs(local[line->dimension - 1]) < here * line->step) return &line->here;
     return &line->rock[ground_line_step(line, local[line->dimension - 1], &part)];
 }
 
