@@ -178,9 +178,10 @@ static void add_pull(struct glut_window *w, const struct steady *steady, int axi
         double place[3] = {0}, normal[3] = {0}, face[3] = {0}, pull[3];
         place[axis] = side == 0 ? c->spline[axis]->low : c->spline[axis]->high;
         place[along[0]] = first->low + ((double)(n % count[0]) + .5) * step[0];
-        if (faces == 2) place[along[1]] = second->low + ((double)(n / count[0]) + .5) * step[1];
+        const size_t row = n / count[0];
+        if (faces == 2) place[along[1]] = second->low + ((double)row + .5) * step[1];
         const struct metric metric = consistent_metric(c, place);
-        for (int f = 0; f < faces; f++)
+        for (int f = 0; f < faces && f < 2; f++)
             spline_at(c->spline[along[f]], false, place[along[f]], &at[f]);
         face[c->slot[axis]] = (side == 0 ? -1 : 1) * step[0] * step[1] * metric.jacobian;
         metric_tilt(&metric, face);
