@@ -756,6 +756,7 @@ cat >moment.nml <<'END'
 END
 told "a moment tensor on total-Lagrangian points" "moment tensors on total-Lagrangian points were .* 'consistent', would be right" check moment.nml
 untold "a moment tensor on splines" check moment.nml method%name=smoothed-point method%gradient=
+told "more points about a receiver than its fit has room for" "more than 512 points lie within the kernel about" -q moment.nml method%gradient=quadratic method%smoothing_length=4 load%centre=.4,.4,.4 output%directory=out
 # --- Absorbing faces ---
 cat >absorb.nml <<'END'
 &scene dimension = 2, end_time = 6.0 /

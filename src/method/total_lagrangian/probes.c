@@ -16,6 +16,7 @@ double tl_probe_radius(const struct tl_model *tl)
 /* What a fit at a place takes within a radius. */
 struct taken {
     size_t count;
+    bool full; /* there was no room for all */
     size_t *index;
     double offset[3 * TL_PROBE_ROOM], kernel[TL_PROBE_ROOM];
 };
@@ -26,7 +27,10 @@ static void take(const struct tl_model *tl, const double place[3], double radius
     const size_t n = tl->cloud->points;
     const double *position = site < n ? tl->cloud->position + 3 * site : tl->site_position + 3 * site;
     double square = 0, *offset = taken->offset + 3 * taken->count, *kernel = &taken->kernel[taken->count];
-    if (taken->count == TL_PROBE_ROOM) return;
+    if (taken->count == TL_PROBE_ROOM) {
+        taken->full = true;
+        return;
+    }
     for (size_t c = 0; c < 3; c++) {
         offset[c] = position[c] - place[c];
         square += offset[c] * offset[c];
@@ -58,6 +62,12 @@ static selas_status fit_at(struct tl_model *tl, const double place[3], size_t gh
             take(tl, place, radius, spacing, tl->cloud->points + g, taken);
         const struct fit fit = {tl->cloud->dimension, tl->options.degree, radius, taken->count,
                                 taken->offset,        taken->kernel,      work};
+        if (taken->full)
+            return fail(
+                messages, SELAS_UNSUPPORTED,
+                "more than %d points lie within the kernel about (%g, %g, %g); a smaller smoothing_length "
+                "would be right",
+                TL_PROBE_ROOM, place[0], place[1], place[2]);
         const bool enough = taken->count >= wanted || radius * 1.05 > tl->near.radius;
         if (enough && fit_free(&fit, weight, gradient)) return SELAS_OK;
         radius *= 1.05;
