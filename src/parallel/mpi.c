@@ -221,7 +221,7 @@ selas_status ranks_agree(struct ranks *ranks, selas_status status, struct messag
     MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, ranks->comm);
     if (first == ranks->count) return SELAS_OK;
     MPI_Bcast(&agreed, 1, MPI_INT, first, ranks->comm);
-    if (first > 0) take_messages(ranks, first, messages);
+    if (first > 0 && messages != NULL) take_messages(ranks, first, messages);
     return (selas_status)agreed;
 }
 

@@ -69,7 +69,7 @@ static inline void ranks_fetch(struct ranks *ranks, int from, void *data, size_t
 double ranks_sent(const struct ranks *ranks);   /* bytes, by this rank */
 double ranks_waited(const struct ranks *ranks); /* seconds, for others and for what they send */
 
-/* Together: the first failure (by rank) is that of all, and its messages reach the first rank. */
+/* Together: the first failure (by rank) is that of all, and its messages (NULL: none) reach the first rank. */
 selas_status ranks_agree(struct ranks *ranks, selas_status status, struct messages *messages);
 /* Ends all ranks, for what only this one knows. Does not come back where there are others. */
 void ranks_abort(struct ranks *ranks, int exit_status);

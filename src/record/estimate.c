@@ -64,7 +64,8 @@ double estimate_step(const struct recorder *own, struct stepper *stepper)
     struct state state = {0};
     double seconds = -1.0;
     if (host != NULL) stepper->driver.host = &silent;
-    if (recorder_create(own->scene, own->model, stepper, &recorder, NULL) == SELAS_OK)
+    if (ranks_agree(own->scene->ranks, recorder_create(own->scene, own->model, stepper, &recorder, NULL),
+                    NULL) == SELAS_OK)
         seconds = time_steps(stepper, recorder, &state);
     state_free(&state);
     recorder_free(&recorder);

@@ -67,10 +67,12 @@ selas_status held_create(struct held *held, const struct model *model, held_acce
     const struct scene *scene = model->scene;
     if (accelerate == NULL || !scene_driven(scene) || model->spatial->linearise != NULL) return SELAS_OK;
     selas_status status = list(held, scene, messages);
-    if (status != SELAS_OK || held->loads == 0) return status;
+    if (status == SELAS_OK && held->loads == 0) return status;
     double *whole = array_new((held->loads + 1) * model->unknowns, sizeof *whole);
-    status = whole != NULL ? take(held, model, accelerate, scheme, whole, messages)
-                           : fail(messages, SELAS_NO_MEMORY, "no memory for the host's loads");
+    if (status == SELAS_OK && whole == NULL)
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for the host's loads");
+    status = ranks_agree(scene->ranks, status, messages);
+    if (status == SELAS_OK) status = take(held, model, accelerate, scheme, whole, messages);
     array_free(whole);
     return status;
 }

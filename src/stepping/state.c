@@ -2,6 +2,7 @@
 #include "stepping/stepping.h"
 
 #include "base/memory.h"
+#include "parallel/ranks.h"
 
 selas_status state_create(struct stepper *stepper, struct state *state, struct messages *messages)
 {
@@ -9,9 +10,13 @@ selas_status state_create(struct stepper *stepper, struct state *state, struct m
     *state = (struct state){0};
     state->y = array_new(model->state_size, sizeof *state->y);
     state->a = array_new(model->unknowns, sizeof *state->a);
-    if (state->y == NULL || state->a == NULL) {
+    selas_status status = SELAS_OK;
+    if (state->y == NULL || state->a == NULL)
+        status = fail(messages, SELAS_NO_MEMORY, "no memory for a state of %zu numbers", model->state_size);
+    status = ranks_agree(model->scene->ranks, status, messages); /* schemes start together */
+    if (status != SELAS_OK) {
         state_free(state);
-        return fail(messages, SELAS_NO_MEMORY, "no memory for a state of %zu numbers", model->state_size);
+        return status;
     }
     if (model->core->initialise != NULL) model->core->initialise(model, state->y);
     if (stepper->scheme->start != NULL) stepper->scheme->start(stepper, state);

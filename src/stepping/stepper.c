@@ -2,6 +2,7 @@
 #include "stepping/schemes.h"
 
 #include "base/memory.h"
+#include "parallel/ranks.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -261,7 +262,7 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
     if (status != SELAS_OK) return status;
     stepper->steps = (unsigned long)ceil(stepper->model->scene->end_time / stepper->dt - 1e-9);
     stepper->extra = steps_beyond(stepper);
-    status = take_memory(stepper, messages);
+    status = ranks_agree(stepper->model->scene->ranks, take_memory(stepper, messages), messages);
     if (status != SELAS_OK) return status;
     return held_create(&stepper->held, stepper->model, stepper->scheme->accelerate, stepper, messages);
 }
