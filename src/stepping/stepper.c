@@ -259,12 +259,15 @@ static selas_status prepare(struct stepper *stepper, struct messages *messages)
     if (status == SELAS_OK) status = choose_step(stepper, messages);
     if (status == SELAS_OK) status = choose_unwarp(stepper, messages);
     if (status == SELAS_OK) status = check_steps(stepper, messages);
-    if (status != SELAS_OK) return status;
-    stepper->steps = (unsigned long)ceil(stepper->model->scene->end_time / stepper->dt - 1e-9);
-    stepper->extra = steps_beyond(stepper);
-    status = ranks_agree(stepper->model->scene->ranks, take_memory(stepper, messages), messages);
-    if (status != SELAS_OK) return status;
-    return held_create(&stepper->held, stepper->model, stepper->scheme->accelerate, stepper, messages);
+    if (status == SELAS_OK) {
+        stepper->steps = (unsigned long)ceil(stepper->model->scene->end_time / stepper->dt - 1e-9);
+        stepper->extra = steps_beyond(stepper);
+        status = take_memory(stepper, messages);
+    }
+    status = ranks_agree(stepper->model->scene->ranks, status, messages);
+    if (status == SELAS_OK)
+        status = held_create(&stepper->held, stepper->model, stepper->scheme->accelerate, stepper, messages);
+    return status;
 }
 
 selas_status stepper_create(struct model *model, struct stepper **created, struct messages *messages)
