@@ -48,7 +48,7 @@ apart() { # apart FIRST WORDS...: the last of 3 ranks runs FIRST before
     shift
     rm -rf "$work/apart"
     mkdir -p "$work/apart/elsewhere"
-    (cd "$work/apart" && timeout 100 $mpirun -n 3 sh "$work/last" "$first" "$program" -q "$here/regress/parallel/tall.nml" output%plots=F output%directory=out "$@") >"$work/log" 2>&1
+    (cd "$work/apart" && timeout "${REGRESS_TIMEOUT:-100}" $mpirun -n 3 sh "$work/last" "$first" "$program" -q "$here/regress/parallel/tall.nml" output%plots=F output%directory=out "$@") >"$work/log" 2>&1
     bad=$?
 }
 told() { # told STATUS COUNT PATTERN WHAT: it ended so, with as many errors, the pattern's on rank 2, and nothing in half
@@ -66,6 +66,13 @@ apart "ulimit -f 24000" body%high=8,8,60 scene%end_time=.1 "snapshot(1)%times=.0
 told 1 2 "'out/unfinished/snapshot_0000.h5': File too large" "a disk that is full for a snapshot of one rank: one line, one of the checkpoint"
 apart "ulimit -f 24000" body%high=8,8,60 scene%end_time=.05 "snapshot(1)%times=.05" "snapshot(1)%fields='velocity','displacement'" "snapshot(2)%times=.05" "snapshot(2)%fields='strain'"
 told 1 2 "'out/run.h5'" "a disk that is full for one rank at the end: one line, one of the checkpoint"
+if [ -z "${SELAS_SANITIZED:-}" ]; then # the shadow of sanitizers is larger than any limit
+    for room in 332000 360000; do # where the steps are measured, and before the state at t = 0
+        apart "ulimit -v $room" body%high=20,20,112 scene%end_time=.1
+        [ "$bad" = 1 ] && [ "$(grep -c '^error: no memory' "$work/log")" = 1 ] && ! grep -q MPI_ERR "$work/log"
+        verdict $? "no memory on one rank beyond $room kB: one line" || sed 's/^/#   /' "$work/log" | head -8
+    done
+fi
 end() { # end SIGNAL [WORDS...]: sent to the last rank of a long run, or with words to all ranks, the last one first
     signal=$1
     shift
