@@ -66,13 +66,6 @@ apart "ulimit -f 24000" body%high=8,8,60 scene%end_time=.1 "snapshot(1)%times=.0
 told 1 2 "'out/unfinished/snapshot_0000.h5': File too large" "a disk that is full for a snapshot of one rank: one line, one of the checkpoint"
 apart "ulimit -f 24000" body%high=8,8,60 scene%end_time=.05 "snapshot(1)%times=.05" "snapshot(1)%fields='velocity','displacement'" "snapshot(2)%times=.05" "snapshot(2)%fields='strain'"
 told 1 2 "'out/run.h5'" "a disk that is full for one rank at the end: one line, one of the checkpoint"
-if [ -z "${SELAS_SANITIZED:-}" ]; then # the shadow of sanitizers is larger than any limit
-    for room in 332000 360000; do # where the steps are measured, and before the state at t = 0
-        apart "ulimit -v $room" body%high=20,20,112 scene%end_time=.1
-        [ "$bad" = 1 ] && [ "$(grep -c '^error: no memory' "$work/log")" = 1 ] && ! grep -q MPI_ERR "$work/log"
-        verdict $? "no memory on one rank beyond $room kB: one line" || sed 's/^/#   /' "$work/log" | head -8
-    done
-fi
 end() { # end SIGNAL [WORDS...]: sent to the last rank of a long run, or with words to all ranks, the last one first
     signal=$1
     shift
