@@ -72,7 +72,7 @@ selas_status held_create(struct held *held, const struct model *model, held_acce
     if (status == SELAS_OK && whole == NULL)
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the host's loads");
     status = ranks_agree(scene->ranks, status, messages);
-    if (status == SELAS_OK) status = take(held, model, accelerate, scheme, whole, messages);
+    if (status == SELAS_OK && whole != NULL) status = take(held, model, accelerate, scheme, whole, messages);
     array_free(whole);
     return status;
 }
