@@ -75,6 +75,14 @@ static void test_steady_fields_balance(void **state)
                         origin[axis] + side * .3 * normal[axis] + (axis < dimension - 1 ? .06 : .02);
                 const double lack = lack_of_balance(&line, &list[n], place, .05) / (line.here.mu / .1);
                 assert_true(lack < 1e-4); /* straight lines between the steps */
+                double direct[3], pull[3], given[3][3];
+                const double face[3] = {.3, dimension == 2 ? -.9 : .2, -.9};
+                steady_pull(&line, &list[n], place, face, pull);
+                stress_at(&line, &list[n], place, .05, given);
+                for (int i = 0; i < dimension; i++) {
+                    direct[i] = given[i][0] * face[0] + given[i][1] * face[1] + given[i][2] * face[2];
+                    assert_true(fabs(pull[i] - direct[i]) < 1e-4 * line.here.mu);
+                }
                 if (side < 0) continue;
                 for (int s = 0; s < 4; s++) { /* traction .01 and .02 to either side of the interface */
                     const double along =

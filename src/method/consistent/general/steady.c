@@ -67,8 +67,9 @@ static bool lay(const struct ground_line *line, struct steady *steady)
     const int m = line->dimension - 1;
     const size_t middle = line->count / 2;
     steady->shift_at = array_new(line->count + 1, sizeof *steady->shift_at);
+    steady->pull_at = array_new(line->count + 1, sizeof *steady->pull_at);
     steady->slope_at = array_new(line->count + 1, sizeof *steady->slope_at);
-    if (steady->shift_at == NULL || steady->slope_at == NULL) return false;
+    if (steady->shift_at == NULL || steady->pull_at == NULL || steady->slope_at == NULL) return false;
     for (int way = -1; way <= 1; way += 2) {
         struct front front = {.slope = steady->slope}, half, rise;
         memcpy(front.shift, steady->shift, sizeof front.shift);
@@ -76,6 +77,7 @@ static bool lay(const struct ground_line *line, struct steady *steady)
         for (size_t n = 0; n <= middle; n++) {
             const size_t at = way > 0 ? middle + n : middle - n;
             memcpy(steady->shift_at[at], front.shift, sizeof front.shift);
+            memcpy(steady->pull_at[at], front.pull, sizeof front.pull);
             steady->slope_at[at] = front.slope;
             if (n == middle) break;
             const struct rock *rock = &line->rock[way > 0 ? at : at - 1];
@@ -118,6 +120,7 @@ void steady_free(struct steady list[STEADY_MOST])
 {
     for (size_t n = 0; n < STEADY_MOST; n++) {
         array_free(list[n].shift_at);
+        array_free(list[n].pull_at);
         array_free(list[n].slope_at);
     }
 }
@@ -154,27 +157,33 @@ void steady_pull(const struct ground_line *line, const struct steady *steady, co
                  const double normal[3], double pull[3])
 {
     const int d = line->dimension, m = d - 1;
-    double local[3], part, slope[3][3] = {{0}}, spread = 0, toward[3] = {0}, sum[3] = {0};
+    double local[3], part, across[3] = {0}, rise[3] = {0}, toward[3] = {0}, sum[3] = {0}, spread = 0;
+    struct slopes slope = {{{0}}};
     ground_line_local(line, place, local);
     const size_t n = ground_line_step(line, local[m], &part);
-    const struct slopes *before = &steady->slope_at[n], *behind = before + 1;
+    const struct rock *rock = &line->rock[n];
     for (int i = 0; i < d; i++) {
-        slope[i][m] = (steady->shift_at[n + 1][i] - steady->shift_at[n][i]) / line->step;
+        across[i] = (1 - part) * steady->pull_at[n][i] + part * steady->pull_at[n + 1][i];
         for (int t = 0; t < m; t++) {
-            slope[i][t] = (1 - part) * before->of[t][i] + part * behind->of[t][i];
-            slope[i][m] += local[t] * (behind->of[t][i] - before->of[t][i]) / line->step;
+            across[i] += local[t] * steady->pull_slope.of[t][i];
+            slope.of[t][i] =
+                (1 - part) * steady->slope_at[n].of[t][i] + part * steady->slope_at[n + 1].of[t][i];
             for (int s = 0; s < m; s++)
-                slope[i][t] += local[s] * steady->bend[t].of[s][i];
+                slope.of[t][i] += local[s] * steady->bend[t].of[s][i];
         }
-        spread += slope[i][i];
         for (int axis = 0; axis < d; axis++)
             toward[i] += line->basis[i][axis] * normal[axis];
     }
-    for (int i = 0; i < d; i++) {
-        sum[i] = line->rock[n].lambda * spread * toward[i];
-        for (int j = 0; j < d; j++)
-            sum[i] += line->rock[n].mu * (slope[i][j] + slope[j][i]) * toward[j];
+    rise_of(rock, m, across, &slope, rise);
+    for (int i = 0; i < d; i++)
+        spread += i == m ? rise[m] : slope.of[i][i];
+    for (int i = 0; i < m; i++) {
+        sum[i] = rock->lambda * spread * toward[i] + across[i] * toward[m];
+        sum[m] += across[i] * toward[i];
+        for (int t = 0; t < m; t++)
+            sum[i] += rock->mu * (slope.of[t][i] + slope.of[i][t]) * toward[t];
     }
+    sum[m] += across[m] * toward[m];
     to_axes(line, sum, pull);
 }
 

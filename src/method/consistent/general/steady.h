@@ -13,7 +13,7 @@ struct slopes {
 struct steady {
     double shift[3], pull[3], acceleration[3];
     struct slopes slope, bend[2], pull_slope;
-    double (*shift_at)[3]; /* [count + 1] along the normal */
+    double (*shift_at)[3], (*pull_at)[3]; /* [count + 1] along the normal */
     struct slopes *slope_at;
 };
 enum { STEADY_MOST = 30 };

@@ -150,17 +150,20 @@ static void control_value(const struct glut_window *w, const struct steady *stea
     consistent_to_ground(c, there);
     steady_at(&w->line, steady, there, here);
     memcpy(value, here, sizeof here);
-    for (int axis = 0; axis < c->dimension; axis++)
-        for (int side = -1;
-             side <= 1 && place[axis] > c->spline[axis]->low && place[axis] < c->spline[axis]->high;
-             side += 2) {
+    for (int axis = 0; axis < c->dimension; axis++) {
+        const struct spline *spline = c->spline[axis];
+        const double spacing = glut_spacing(spline);
+        if (fmin(place[axis] - spline->low, spline->high - place[axis]) < .25 * spacing)
+            continue; /* at the end */
+        for (int side = -1; side <= 1; side += 2) {
             memcpy(there, place, sizeof there);
-            there[axis] += side * glut_spacing(c->spline[axis]);
+            there[axis] += side * spacing;
             consistent_to_ground(c, there);
             steady_at(&w->line, steady, there, beside);
             for (int i = 0; i < c->dimension; i++)
                 value[i] -= (beside[i] - here[i]) / 8;
         }
+    }
 }
 
 /* Adds what a field pulls at the ground through a free face: it has its stress there, and the face has none. */
