@@ -274,6 +274,20 @@ sed "/&load/d" cover.nml >pressed.nml
 echo "&load face = 'y-', shape = 'square', centre = 0, 0, size = .5, direction = 0, 1, history = 'gaussian', width = .471, delay = 2.356 /" >>pressed.nml
 untold "a patch" check pressed.nml
 untold "by the operator for layers" check cover.nml method%operator=layered
+cat >lens.nml <<'END'
+&scene dimension = 2, end_time = 3.68 /
+&method operator = 'general' /
+&material name = 'soft', density = 1, s_speed = 1, p_speed = 1.906 /
+&material name = 'stiff', density = 1.064, s_speed = 1.901, p_speed = 3.624 /
+&body material = 'stiff', low = -2.4, 0, high = 2.4, 2.2, spacing = .1 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting' /
+&topography shape = 'gaussian', centre = 0, height = .475, width = .81 /
+&layer material = 'soft', top = 0 /
+&layer material = 'stiff', top = .02, dip = 7.8, strike = -90 /
+&load kind = 'moment-tensor', centre = -.677, -.124, moment = -.4, .9, 0, .1, 0, 0, history = 'gaussian', width = .215, delay = 1.075 /
+&receiver name = 'r', position = .239, 1 /
+END
+told "soil in a hill on rock, from the hill's surface" "2.6 spacings below the surface the shear modulus jumps 3.85 times" check lens.nml
 
 # --- Layers a spacing thick that go to and fro: densities 3 : 1 err by .06, by .02 at half the spacing, with sources as slow ---
 {

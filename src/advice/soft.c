@@ -4,7 +4,6 @@
 #include "base/memory.h"
 #include "scene/boundary.h"
 #include "scene/resolution.h"
-#include "scene/topography.h"
 
 #include <math.h>
 
@@ -147,21 +146,13 @@ struct cover {
     double size, ratio, depth, points; /* ln(r) / p^2; spacings; p of the softer rock */
 };
 
-static double surface_at(const struct scene *scene, const double place[3])
-{
-    const struct topography *topography = scene->body.topography;
-    const double plane = ground_low(&scene->body, scene->dimension - 1);
-    return topography == NULL ? plane
-                              : topography_real(topography, topography_drop(topography, place), plane);
-}
-
 static void look_below(const struct scene *scene, const double place[3], struct line *line,
                        struct cover *cover)
 {
     static const double deepest = 4;
     const double length = deepest * scene->body.spacing;
     const double points = points_per_wavelength(scene) / slowest_speed(scene);
-    const int count = sample(scene, place, surface_at(scene, place), length, line);
+    const int count = sample(scene, place, ground_surface(scene, place), length, line);
     for (int i = 1; i < count; i++) {
         const double r = exp(fabs(log(line->mu[i] / line->mu[i - 1]))),
                      p = points * fmin(line->speed[i], line->speed[i - 1]), size = log(r) / (p * p);
@@ -200,7 +191,7 @@ void look_at_covers(struct adviser *adviser)
         ground_from_deck(&scene->body,
                          load ? scene->load[n].centre : scene->receiver[n - scene->loads].position, place);
         look_below(scene, place, line, &cover);
-        const double depth = place[axis] - surface_at(scene, place);
+        const double depth = place[axis] - ground_surface(scene, place);
         const double here = (load ? law_below(scene, &scene->load[n], depth) : of_waves) * cover.size;
         if (here <= error) continue;
         error = here;

@@ -298,6 +298,11 @@ size_t ground_jumps_at_most(const struct scene *scene)
     return scene->body.layers + 2 * scene->body.blocks + (parts << HALVINGS);
 }
 
+double ground_surface(const struct scene *scene, const double place[3])
+{
+    return scene->body.low[scene->dimension - 1] + surface_at(scene, place);
+}
+
 double ground_low(const struct body *body, int axis)
 {
     const struct topography *topography = body->topography;

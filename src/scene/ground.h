@@ -47,6 +47,8 @@ void ground_model_free(struct ground_model *model); /* takes NULL */
 size_t ground_jumps(const struct scene *scene, const double place[3], int axis, double from, double to,
                     double *at);
 size_t ground_jumps_at_most(const struct scene *scene);
+/* The surface above or below a place, along depth, of the body's frame. */
+double ground_surface(const struct scene *scene, const double place[3]);
 /* Where the ground begins along an axis of the body's frame: along depth at the highest point of the surface. */
 double ground_low(const struct body *body, int axis);
 /* Does the rock change smoothly anywhere? */
