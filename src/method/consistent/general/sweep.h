@@ -97,9 +97,9 @@ struct sweep {
         const struct run_of_points *run;                                                                             \
         size_t runs;                                                                                                 \
         const double *stiffness;                                                                                     \
-        const real *value[3][SPAN], *slope[3][SPAN]; /* [component] over depth, rows of control values */            \
-        real *pull[3][SPAN], *slope_pull[3][SPAN];   /* the last of them is set, the others grow */                  \
-        real *across_pull[3][SPAN];                  /* of stresses() */                                             \
+        const real *in[SPAN]; /* rows of the ring of values over depth: [3 * component][DEPTH_FIELDS][stride] */             \
+        real *out[SPAN];      /* of pulls, PULL_FIELDS each: the last of them is set, the others grow */                     \
+        int field, across;    /* of both rings: that of values, of slopes after it; of pulls along y in stresses() */        \
         real *scratch;                               /* [(9 + STRESS_ROOM) * stride] with room before it */          \
     };                                                                                                               \
     struct sweep_kernels_##precision {                                                                               \

@@ -53,12 +53,15 @@ static void depth(size_t n, const REAL *const in[SPAN], const REAL weight[DEPTH_
 }
 
 /* Along y, of a component: value and slope of the values over depth, value of the slopes. */
-INLINED void along_y(const bool knots, size_t width, const REAL *const *value, const REAL *const *slope,
-                     REAL *restrict a, REAL *restrict b, REAL *restrict c)
+INLINED void along_y(const bool knots, const struct NAME(sweep_row) * row, int component, REAL *restrict a,
+                     REAL *restrict b, REAL *restrict c)
 {
-    const REAL *restrict v0 = value[0], *restrict v1 = value[1], *restrict v2 = value[2];
-    const REAL *restrict s0 = slope[0], *restrict s1 = slope[1], *restrict s2 = slope[2];
-    for (size_t i = 0; i < width; i += LANES)
+    const size_t at_value = (size_t)(component * DEPTH_FIELDS + row->field) * row->stride;
+    const REAL *restrict v0 = row->in[0] + at_value, *restrict v1 = row->in[1] + at_value,
+                         *restrict v2 = row->in[2] + at_value;
+    const REAL *restrict s0 = v0 + row->stride, *restrict s1 = v1 + row->stride,
+                         *restrict s2 = v2 + row->stride;
+    for (size_t i = 0; i < row->width; i += LANES)
         if (knots) {
             put(a + i, at(v0 + i) + at(v1 + i));
             put(b + i, at(v1 + i) - at(v0 + i));

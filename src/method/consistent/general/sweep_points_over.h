@@ -122,10 +122,13 @@ INLINED void pulls_back(const bool x_knots, const bool y_knots, const bool apart
                         const struct NAME(sweep_row) * row, int component, const REAL *restrict x,
                         const REAL *restrict y, const REAL *restrict z)
 {
-    REAL *const *across = row->across_pull[component];
-    REAL *const *pull = row->pull[component], *const *slope = row->slope_pull[component];
-    REAL *restrict p0 = pull[0], *restrict p1 = pull[1], *restrict p2 = pull[2];
-    REAL *restrict s0 = slope[0], *restrict s1 = slope[1], *restrict s2 = slope[2];
+    const size_t stride = row->stride, first = (size_t)(component * PULL_FIELDS) * stride;
+    const size_t at_pull = first + (size_t)row->field * stride, across = first + (size_t)row->across * stride;
+    REAL *restrict p0 = row->out[0] + at_pull, *restrict p1 = row->out[1] + at_pull,
+                   *restrict p2 = row->out[2] + at_pull;
+    REAL *restrict s0 = p0 + stride, *restrict s1 = p1 + stride, *restrict s2 = p2 + stride;
+    REAL *restrict a0 = row->out[0] + across, *restrict a1 = row->out[1] + across,
+                   *restrict a2 = row->out[2] + across;
     const REAL factor[3] = {row->factor[0], row->factor[1], row->factor[2]};
     const size_t width = row->width;
     for (size_t i = 0; i < width; i += LANES) {
@@ -149,11 +152,11 @@ INLINED void pulls_back(const bool x_knots, const bool y_knots, const bool apart
             put(s2 + i, three);
         }
         if (!apart) continue;
-        put(across[0] + i, at(across[0] + i) - two);
+        put(a0 + i, at(a0 + i) - two);
         if (y_knots)
-            put(across[1] + i, at(across[1] + i) + two);
+            put(a1 + i, at(a1 + i) + two);
         else
-            put(across[2] + i, two);
+            put(a2 + i, two);
     }
 }
 
@@ -162,7 +165,7 @@ INLINED void slopes_of(const bool x_knots, const bool y_knots, const struct NAME
     const size_t stride = row->stride, width = row->width;
     for (int c = 0; c < 3; c++) {
         REAL *x = row->scratch + (size_t)(3 * c) * stride, *y = x + stride, *z = y + stride;
-        along_y(y_knots, width, row->value[c], row->slope[c], x, y, z);
+        along_y(y_knots, row, c, x, y, z);
         for (size_t i = 0; i < width; i += LANES) {
             put(x + i, row->factor[0] * slope_of(x_knots, x + i));
             put(y + i, row->factor[1] * value_of(x_knots, y + i));
@@ -179,7 +182,7 @@ INLINED void stresses_at(const bool x_knots, const bool y_knots, const bool made
     REAL *in = row->scratch, *out = in + 9 * stride;
     for (int c = 0; c < 3 && !made; c++) {
         REAL *rows = in + (size_t)(3 * c) * stride;
-        along_y(y_knots, row->width, row->value[c], row->slope[c], rows, rows + stride, rows + 2 * stride);
+        along_y(y_knots, row, c, rows, rows + stride, rows + 2 * stride);
     }
     if (row->hill != NULL)
         tilted_stresses(x_knots, made, more, row, in, out);

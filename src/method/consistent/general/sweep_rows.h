@@ -224,25 +224,21 @@ static void read_row(const struct pass *pass, const REAL *u, REAL *ring, size_t 
 #include "method/consistent/general/sweep_layers.h"
 
 /* Rows of a ring that row j of points reads. */
-static void take_values(const struct sweep *s, REAL *ring, size_t j, int value,
-                        struct NAME(sweep_row) * points)
+static void take_values(const struct sweep *s, REAL *ring, size_t j, struct NAME(sweep_row) * points)
 {
-    for (int component = 0; component < 3; component++)
-        for (size_t d = 0; d < SPAN; d++) {
-            points->value[component][d] = ring_row(s, ring, j + d, component, value);
-            points->slope[component][d] = ring_row(s, ring, j + d, component, value + 1);
-        }
+    for (size_t d = 0; d < SPAN; d++)
+        points->in[d] = ring_row(s, ring, j + d, 0, 0);
 }
 
 /* Slopes of u of a part at a row of points where layers are, with their memory. */
 static void slope_row_of(const struct pass *pass, const struct rings *r,
-                         const struct NAME(sweep_row) * points, size_t p, int value, int f, size_t m,
-                         size_t j, enum task task)
+                         const struct NAME(sweep_row) * points, size_t p, int f, size_t m, size_t j,
+                         enum task task)
 {
     struct NAME(sweep_row) rate = *points;
     NAME(taken_sweep_kernels)()->slopes(points);
     if (task != PULL) {
-        take_values(pass->s, ring_of(pass->s, r->rate, p), j, value, &rate);
+        take_values(pass->s, ring_of(pass->s, r->rate, p), j, &rate);
         rate.scratch = r->rates;
         NAME(taken_sweep_kernels)()->slopes(&rate);
     }
@@ -266,13 +262,13 @@ static void take_moduli(const struct pass *pass, size_t p, int f, size_t m, size
 
 /* Slopes and stresses of a part at row j, and what they pull at if there is no other part. */
 static void point_row_of(const struct pass *pass, const struct rings *r, struct NAME(sweep_row) * points,
-                         size_t p, int value, int f, size_t m, size_t j, enum task task)
+                         size_t p, int f, size_t m, size_t j, enum task task)
 {
     const struct NAME(sweep_kernels) *kernels = NAME(taken_sweep_kernels)();
     const bool layered = pass->s->layered;
     take_moduli(pass, p, f, m, j, points);
-    take_values(pass->s, ring_of(pass->s, r->value, p), j, value, points);
-    if (layered) slope_row_of(pass, r, points, p, value, f, m, j, task);
+    take_values(pass->s, ring_of(pass->s, r->value, p), j, points);
+    if (layered) slope_row_of(pass, r, points, p, f, m, j, task);
     if (task == MOVE) return;
     if (pass->fields->parts > 1)
         kernels->stresses_of(points, layered, p > 0);
@@ -288,10 +284,11 @@ static void point_row(const struct pass *pass, const struct rings *r, int f, siz
 {
     const struct sweep *s = pass->s;
     const struct family *family = &pass->c->general->family[f];
-    const int across = family->at[DEPTH] == AT_KNOTS ? ACROSS_KNOTS : ACROSS_MIDDLES;
-    const enum sweep_field value = family->at[DEPTH] == AT_KNOTS ? VALUE_KNOTS : VALUE_MIDDLES;
+    const bool deep_knots = family->at[DEPTH] == AT_KNOTS;
     struct NAME(sweep_row) points = {.x_knots = family->at[0] == AT_KNOTS,
                                      .y_knots = family->at[1] == AT_KNOTS,
+                                     .field = deep_knots ? VALUE_KNOTS : VALUE_MIDDLES,
+                                     .across = deep_knots ? ACROSS_KNOTS : ACROSS_MIDDLES,
                                      .width = s->width,
                                      .stride = s->stride,
                                      .scratch = r->scratch};
@@ -306,14 +303,10 @@ static void point_row(const struct pass *pass, const struct rings *r, int f, siz
             hill.slope[slot] = (const REAL *)s->hill[f][1 + slot] + j * s->width;
         points.hill = &hill;
     }
-    for (int component = 0; component < 3; component++)
-        for (size_t d = 0; d < SPAN; d++) {
-            points.pull[component][d] = pull_row(s, r->pull, j + d, component, (int)value);
-            points.slope_pull[component][d] = pull_row(s, r->pull, j + d, component, (int)value + 1);
-            points.across_pull[component][d] = pull_row(s, r->pull, j + d, component, across);
-        }
+    for (size_t d = 0; d < SPAN; d++)
+        points.out[d] = pull_row(s, r->pull, j + d, 0, 0);
     for (size_t p = 0; p < pass->fields->parts; p++)
-        point_row_of(pass, r, &points, p, (int)value, f, m, j, task);
+        point_row_of(pass, r, &points, p, f, m, j, task);
     if (task != MOVE && pass->fields->parts > 1) NAME(taken_sweep_kernels)()->pulls_of(&points, s->layered);
 }
 
