@@ -97,10 +97,10 @@ struct sweep {
         const struct run_of_points *run;                                                                             \
         size_t runs;                                                                                                 \
         const double *stiffness;                                                                                     \
-        const real *in[SPAN]; /* rows of the ring of values over depth: [3 * component][DEPTH_FIELDS][stride] */             \
-        real *out[SPAN];      /* of pulls, PULL_FIELDS each: the last of them is set, the others grow */                     \
-        int field, across;    /* of both rings: that of values, of slopes after it; of pulls along y in stresses() */        \
-        real *scratch;                               /* [(9 + STRESS_ROOM) * stride] with room before it */          \
+        const real *in[SPAN]; /* of the ring of values over depth: [component][DEPTH_FIELDS][stride] */              \
+        real *out[SPAN];      /* of pulls, PULL_FIELDS each: the last of them is set, the others grow */             \
+        int field, across;    /* in rings: of values, slopes come next; of pulls along y in stresses() */            \
+        real *scratch;        /* [(9 + STRESS_ROOM) * stride] with room before it */                                 \
     };                                                                                                               \
     struct sweep_kernels_##precision {                                                                               \
         /* u += dt w, n numbers; gives the largest |u| */                                                            \
@@ -113,6 +113,8 @@ struct sweep {
          * change them; and the pulls of their stresses, those along y apart. */  \
         void (*slopes)(const struct sweep_row_##precision *row);                                                     \
         void (*stresses)(const struct sweep_row_##precision *row);                                                   \
+        /* Those slopes along one slot only, at points from .. end - 1 at least. */                                  \
+        void (*slope)(const struct sweep_row_##precision *row, int slot, size_t from, size_t end);                   \
         /* The same of several parts: the stresses of one, from slopes that are there or not, in the place of or   \
          * beside those of others; then what they pull at. */ \
         void (*stresses_of)(const struct sweep_row_##precision *row, bool made, bool more);                          \

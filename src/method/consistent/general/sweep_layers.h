@@ -19,6 +19,7 @@ static void add_memory(const struct pass *pass, const struct NAME(sweep_row) * p
         if (!general_layer_points(layer, f, j, m, &first, &end, &at)) continue;
         const enum at along = g->family[f].at[layer->slot];
         const size_t place = general_layer_place(layer, f, first, j, m), n = end - first;
+        if (rate != NULL) kernels->slope(rate, layer->slot, first, end);
         for (size_t component = 0; component < 3; component++) {
             const size_t row = (3 * component + (size_t)layer->slot) * points->stride + first;
             double *psi = pass->fields->part[p].extra + at + component * layer->points[f];
@@ -41,6 +42,36 @@ static bool plane_is_layered(const struct pass *pass, size_t m)
             if (m >= g->layer[l].at[f][DEPTH] && m < g->layer[l].at[f][DEPTH] + g->layer[l].n[f][DEPTH])
                 return true;
     return false;
+}
+
+/* Columns of the unclamped splines that a layer's points in row `row` of plane m of the pairs and the two before it
+ * read. */
+static struct rows columns_read(const struct general *g, size_t l, size_t m, size_t row)
+{
+    const struct general_layer *layer = &g->layer[l];
+    struct rows columns = {0, 0};
+    for (int f = 0; f < 3; f++) {
+        const size_t *at = layer->at[f], *n = layer->n[f];
+        if (m >= at[2] && m < at[2] + n[2] && row >= at[1] && row < at[1] + n[1] + 2)
+            join(&columns, at[0], at[0] + n[0] + (g->family[f].at[0] == AT_KNOTS ? 1 : 2));
+    }
+    return columns;
+}
+
+/* What a part moves by, where memory reads it: whole rows in layers across y or depth. */
+static void read_rates(const struct pass *pass, REAL *ring, size_t p, size_t m, size_t row)
+{
+    const struct general *g = pass->c->general;
+    struct rows all = {0, 0};
+    for (size_t l = 0; l < g->layers; l++) {
+        const struct rows columns = columns_read(g, l, m, row);
+        if (g->layer[l].slot != 0) join(&all, columns.from, columns.end);
+    }
+    if (all.from < all.end) read_row(pass, rate_of(pass, p), ring, m, row, all);
+    for (size_t l = 0; l < g->layers && all.from >= all.end; l++) {
+        const struct rows columns = columns_read(g, l, m, row);
+        if (columns.from < columns.end) read_row(pass, rate_of(pass, p), ring, m, row, columns);
+    }
 }
 
 /* Row of the ring of a part. */

@@ -74,6 +74,20 @@ INLINED void along_y(const bool knots, const struct NAME(sweep_row) * row, int c
         }
 }
 
+/* Along y, of one of them, number `field`: its slope or value. */
+INLINED void one_along_y(const bool knots, const bool slope, const struct NAME(sweep_row) * row,
+                         int component, int field, size_t from, size_t end, REAL *restrict out)
+{
+    const size_t place = (size_t)(component * DEPTH_FIELDS + field) * row->stride;
+    const REAL *restrict v0 = row->in[0] + place, *restrict v1 = row->in[1] + place,
+                         *restrict v2 = row->in[2] + place;
+    for (size_t i = from; i < end; i += LANES)
+        if (slope)
+            put(out + i, knots ? at(v1 + i) - at(v0 + i) : at(v2 + i) - at(v0 + i));
+        else
+            put(out + i, knots ? at(v0 + i) + at(v1 + i) : 6 * at(v1 + i) + (at(v0 + i) + at(v2 + i)));
+}
+
 INLINED lanes value_of(const bool knots, const REAL *row)
 {
     return knots ? at(row) + at(row + 1) : 6 * at(row + 1) + (at(row) + at(row + 2));
@@ -180,6 +194,6 @@ static void scale(size_t n, const REAL *restrict factor, const REAL *restrict in
         out[i] = factor[i] * in[i];
 }
 
-const struct NAME(sweep_kernels)
-    OF_PROCESSOR(NAME(sweep_kernels)) = {bring, depth,  points,   slopes, stresses, stresses_of, pulls_of,
-                                         pulls, recall, remember, pull,   keep,     scale,       finish};
+const struct NAME(sweep_kernels) OF_PROCESSOR(NAME(sweep_kernels)) = {
+    bring, depth,  points,   slopes, stresses, slope, stresses_of, pulls_of,
+    pulls, recall, remember, pull,   keep,     scale, finish};

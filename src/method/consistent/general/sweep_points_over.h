@@ -174,6 +174,20 @@ INLINED void slopes_of(const bool x_knots, const bool y_knots, const struct NAME
     }
 }
 
+/* Columns reach 2 beyond the points that read them. */
+INLINED void slope_along(const bool x_knots, const bool y_knots, const int slot,
+                         const struct NAME(sweep_row) * row, size_t from, size_t end)
+{
+    const size_t first = from / LANES * LANES, after = end + 2 < row->width ? end + 2 : row->width;
+    for (int c = 0; c < 3; c++) {
+        REAL *out = row->scratch + (size_t)(3 * c + slot) * row->stride;
+        one_along_y(y_knots, slot == 1, row, c, row->field + (slot == 2 ? 1 : 0), first, after, out);
+        for (size_t i = first; i < end; i += LANES)
+            put(out + i,
+                row->factor[slot] * (slot == 0 ? slope_of(x_knots, out + i) : value_of(x_knots, out + i)));
+    }
+}
+
 /* Stresses at the points; made: the slopes are there; more: beside those that are there. */
 INLINED void stresses_at(const bool x_knots, const bool y_knots, const bool made, const bool more,
                          const struct NAME(sweep_row) * row)
@@ -229,6 +243,17 @@ static void points(const struct NAME(sweep_row) * row)
 static void slopes(const struct NAME(sweep_row) * row)
 {
     BY_KNOTS(slopes_of, row)
+}
+
+static void slope(const struct NAME(sweep_row) * row, int slot, size_t from, size_t end)
+{
+    if (slot == 0) {
+        BY_KNOTS(slope_along, 0, row, from, end)
+    } else if (slot == 1) {
+        BY_KNOTS(slope_along, 1, row, from, end)
+    } else {
+        BY_KNOTS(slope_along, 2, row, from, end)
+    }
 }
 
 static void stresses(const struct NAME(sweep_row) * row)

@@ -180,45 +180,60 @@ static void mix(size_t n, REAL a, REAL b, const REAL *restrict in, REAL *restric
         out[i] = a * out[i] + b * in[i];
 }
 
-/* The row of the unclamped splines at an end of y from that next to it (G5). */
-static void end_row(const struct sweep *s, REAL *ring, bool high)
+/* The row of the unclamped splines at an end of y from that next to it (G5), in some columns. */
+static void end_row(const struct sweep *s, REAL *ring, bool high, struct rows columns)
 {
     const size_t row = high ? unclamped(s, 1) - 1 : 0, next = high ? row - 1 : 1;
     for (int component = 0; component < 3; component++)
         for (int field = 0; field < DEPTH_FIELDS; field++) {
-            const REAL *in = ring_row(s, ring, next, component, field);
-            REAL *out = ring_row(s, ring, row, component, field);
+            const REAL *in = ring_row(s, ring, next, component, field) + columns.from;
+            REAL *out = ring_row(s, ring, row, component, field) + columns.from;
             if (s->mirror[1][high])
-                mix(s->width, 0, component == 1 ? -1 : 1, in, out);
+                mix(columns.end - columns.from, 0, component == 1 ? -1 : 1, in, out);
             else
-                mix(s->width, 2, -1, in, out);
+                mix(columns.end - columns.from, 2, -1, in, out);
         }
 }
 
-/* Values and slopes over depth of row `row` of the unclamped splines of u, or w in its place. */
-static void read_row(const struct pass *pass, const REAL *u, REAL *ring, size_t m, size_t row)
+/* The control values behind some columns of the unclamped splines, a vector at least. */
+static struct rows controls_of(const struct sweep *s, struct rows columns)
+{
+    const size_t n = s->n[0], end = less(columns.end, s->low[0]);
+    struct rows controls = {less(columns.from, s->low[0]), end < n ? end : n};
+    if (controls.end < controls.from + GROUP)
+        controls.end = controls.from + GROUP < n ? controls.from + GROUP : n;
+    if (controls.end < controls.from + GROUP) controls.from = less(controls.end, GROUP);
+    return controls;
+}
+
+/* Values and slopes over depth of row `row` of the unclamped splines of u, or w in its place, in some columns. */
+static void read_row(const struct pass *pass, const REAL *u, REAL *ring, size_t m, size_t row,
+                     struct rows columns)
 {
     const struct sweep *s = pass->s;
     const size_t last = s->cells[0] + 1;
     const bool ghost = row < s->low[1] || row - s->low[1] >= s->n[1];
+    const struct rows controls = controls_of(s, columns);
     for (int component = 0; component < 3 && !ghost; component++) {
         const REAL *in[SPAN];
         REAL *out[DEPTH_FIELDS];
         for (size_t d = 0; d < SPAN; d++)
             in[d] = u + (size_t)component * s->volume + (s->pair[m].base + d) * s->plane +
-                    (row - s->low[1]) * s->n[0];
+                    (row - s->low[1]) * s->n[0] + controls.from;
         for (int field = 0; field < DEPTH_FIELDS; field++)
-            out[field] = ring_row(s, ring, row, component, field) + s->low[0];
-        NAME(taken_sweep_kernels)()->depth(s->n[0], in, s->pair[m].weight[component == DEPTH], out);
+            out[field] = ring_row(s, ring, row, component, field) + s->low[0] + controls.from;
+        NAME(taken_sweep_kernels)
+        ()->depth(controls.end - controls.from, in, s->pair[m].weight[component == DEPTH], out);
         for (int field = 0; field < DEPTH_FIELDS; field++) {
             REAL *to = ring_row(s, ring, row, component, field);
             const REAL sign = component == 0 ? -1 : 1;
-            to[0] = s->mirror[0][0] ? sign * to[1] : 2 * to[0] - to[1];
-            to[last] = s->mirror[0][1] ? sign * to[last - 1] : 2 * to[last] - to[last - 1];
+            if (controls.from == 0) to[0] = s->mirror[0][0] ? sign * to[1] : 2 * to[0] - to[1];
+            if (controls.end == s->n[0])
+                to[last] = s->mirror[0][1] ? sign * to[last - 1] : 2 * to[last] - to[last - 1];
         }
     }
-    if (row == 1) end_row(s, ring, false);
-    if (row == s->cells[1] + 1) end_row(s, ring, true);
+    if (row == 1) end_row(s, ring, false, columns);
+    if (row == s->cells[1] + 1) end_row(s, ring, true, columns);
 }
 
 #include "method/consistent/general/sweep_layers.h"
@@ -240,7 +255,6 @@ static void slope_row_of(const struct pass *pass, const struct rings *r,
     if (task != PULL) {
         take_values(pass->s, ring_of(pass->s, r->rate, p), j, &rate);
         rate.scratch = r->rates;
-        NAME(taken_sweep_kernels)()->slopes(&rate);
     }
     add_memory(pass, points, task != PULL ? &rate : NULL, p, f, m, j);
 }
@@ -336,8 +350,9 @@ static void write_row(const struct pass *pass, const struct rings *r, size_t m, 
 static void read_rows(const struct pass *pass, const struct rings *r, size_t m, size_t row, enum task task)
 {
     for (size_t p = 0; p < pass->fields->parts; p++) {
-        read_row(pass, pass->fields->part[p].u, ring_of(pass->s, r->value, p), m, row);
-        if (task != PULL) read_row(pass, rate_of(pass, p), ring_of(pass->s, r->rate, p), m, row);
+        read_row(pass, pass->fields->part[p].u, ring_of(pass->s, r->value, p), m, row,
+                 (struct rows){0, pass->s->width});
+        if (task != PULL) read_rates(pass, ring_of(pass->s, r->rate, p), p, m, row);
     }
 }
 
