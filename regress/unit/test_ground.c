@@ -1,5 +1,6 @@
 /* The ground as a field: tilted and graded layers, blocks, a model from a file, what is refused; the effective
  * medium at an interface (doc/theory/general-ground.md, section 4). */
+#include "chance.h"
 #include "from_deck.h"
 
 #include "method/consistent/consistent.h"
@@ -20,6 +21,11 @@ static const char stored[] = "build/test/ground.h5";
 #define BODY                                                                                                 \
     "&body material = 'soil', low = 0.0, 0.0, 0.0, high = 2.0, 2.0, 2.0, spacing = 0.25 /\n"                 \
     "&load face = 'z-', shape = 'square', centre = 1.0, 1.0, 0.0, size = 1.0, 1.0, direction = 0, 0, 1, "    \
+    "history = 'triangle', duration = 1 /\n"
+
+#define HILL                                                                                                 \
+    "&body material = 'soil', low = 0.0, 0.0, 0.0, high = 2.0, 2.0, 2.0, spacing = 0.25 /\n"                 \
+    "&load kind = 'moment-tensor', centre = 1.0, 1.0, 1.5, moment = 1, 1, 1, 0, 0, 0, "                      \
     "history = 'triangle', duration = 1 /\n"
 
 static void assert_rock(const struct scene *scene, double x, double y, double z, double density, double p,
@@ -54,6 +60,57 @@ static void test_layers_and_blocks(void **state)
     assert_true(ground_jumps_at_most(scene) <= 128);
     assert_int_equal(ground_jumps(scene, (double[]){1, 1, 0}, 2, 1.2, 2, at), 2); /* top of either block */
     from_deck_free(&made);
+}
+
+/* Is a place in the box, by chance, of another rock than the first one? */
+static bool differs(const struct scene *scene, const double low[3], const double high[3])
+{
+    const struct rock first = ground_at(scene, low);
+    double place[3];
+    for (int axis = 0; axis < 3; axis++)
+        place[axis] = low[axis] + (high[axis] - low[axis]) * (double)chance(5) / 4;
+    const struct rock rock = ground_at(scene, place);
+    return memcmp(&rock, &first, sizeof rock) != 0;
+}
+
+/* Boxes by chance, in the body and beside it, that are told to be even are. */
+static void test_even(void **state)
+{
+    (void)state;
+    static const char *const ground[] = {
+        "&layer material = 'soil', top = 0.0 /\n&layer material = 'rock', top = 1.0, dip = 40, strike = 60 "
+        "/\n",
+        "&block material = 'rock', centre = 0.5, 1, 0.3, size = 1, 1, 0.6 /\n"
+        "&block material = 'rock', shape = 'ellipsoid', centre = 1.5, 1.2, 1.5, size = 1, 0.5, 1 /\n",
+        "&topography shape = 'gaussian', centre = 1, 1, height = 0.4, width = 0.5 /\n"
+        "&layer material = 'soil', top = 0.0 /\n&layer material = 'rock', top = 0.2 /\n"
+        "&block material = 'soil', centre = 1, 1, 1, size = 0.4, 4, 0.5 /\n"};
+    seed_begin(20);
+    for (size_t n = 0; n < sizeof ground / sizeof *ground; n++) {
+        char text[2000];
+        size_t even = 0;
+        enum { BOXES = 4000 };
+        snprintf(text, sizeof text, "%s%s%s", HEAD ROCK, n < 2 ? BODY : HILL, ground[n]);
+        struct from_deck made = right_scene(text);
+        for (size_t i = 0; i < BOXES; i++) {
+            double low[3], high[3];
+            for (int axis = 0; axis < 3; axis++) {
+                low[axis] = axis < 2 ? -.8 + (double)chance(3600) / 1000 : (double)chance(1900) / 1000;
+                high[axis] = low[axis] + (double)(1 + chance(250)) / 1000;
+            }
+            for (int corner = 0; corner < 4; corner++) /* below the surface */
+                low[2] =
+                    fmax(low[2], ground_surface(made.scene, (double[]){corner & 1 ? high[0] : low[0],
+                                                                       corner & 2 ? high[1] : low[1], 0}));
+            if (low[2] >= high[2]) continue;
+            if (!ground_is_even(made.scene, low, high)) continue;
+            even++;
+            for (int k = 0; k < 50; k++)
+                assert_false(differs(made.scene, low, high));
+        }
+        assert_true(even > BOXES / 4);
+        from_deck_free(&made);
+    }
 }
 
 static const char heights[] = "build/test/interface.txt";
@@ -262,9 +319,13 @@ static void test_dampers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layers_and_blocks), cmocka_unit_test(test_interface_from_file),
-        cmocka_unit_test(test_step_of_a_model),   cmocka_unit_test(test_model),
-        cmocka_unit_test(test_refused_models),    cmocka_unit_test(test_who_takes_it),
+        cmocka_unit_test(test_layers_and_blocks),
+        cmocka_unit_test(test_even),
+        cmocka_unit_test(test_interface_from_file),
+        cmocka_unit_test(test_step_of_a_model),
+        cmocka_unit_test(test_model),
+        cmocka_unit_test(test_refused_models),
+        cmocka_unit_test(test_who_takes_it),
         cmocka_unit_test(test_dampers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

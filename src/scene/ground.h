@@ -24,6 +24,8 @@ struct rock ground_at(const struct scene *scene, const double place[3]);
  * evenly. ground_part_at(): of any other scene all. */
 struct shares ground_shares_at(const struct scene *scene, const double place[3]);
 struct rock ground_part_at(const struct scene *scene, const double place[3]);
+/* Is the ground within this box of the body's frame, none of it above the surface, sure to be one rock? */
+bool ground_is_even(const struct scene *scene, const double low[3], const double high[3]);
 /* Speeds of P and S waves; in damped ground at the source's frequencies. */
 void ground_speeds_at(const struct scene *scene, const double place[3], double speed[2]);
 /* model_grid.c: even between the values of the grids, beyond the body as at its nearest face. */

@@ -204,12 +204,10 @@ double columns_line(const struct columns *columns, size_t n, size_t line)
 void columns_average(const struct columns *columns, enum at at, size_t i, const struct piece *column,
                      size_t stride, struct piece *sum)
 {
-    *sum = *column;
-    if (!columns->varies) return;
-    size_t first;
-    const size_t count = about(columns, at, i, &first);
+    size_t first = 0;
+    const size_t count = columns->varies ? about(columns, at, i, &first) : 1;
     *sum = column[first * stride];
-    if (column[(first + count - 1) * stride].alike + 1 >= count) return;
+    if (count == 1 || column[(first + count - 1) * stride].alike + 1 >= count) return;
     const double cell = (double)columns->a_cell, reach = cell * PIECES / 2,
                  middle = columns->middle[first] - columns->width[first] / 2 + reach / 2;
     const struct piece *from = column + columns->image[first] * stride;

@@ -21,7 +21,8 @@ struct medium {
     struct columns along[2]; /* by slot */
     double *drop;            /* [columns] of the surface above them, where it is not level; NULL: it is */
     struct piece *column, *row[2]; /* [threads * columns along x]; [at][points along x, columns along y] */
-    struct piece *ring[3];         /* by family: [RING][points of a plane] */
+    bool *even;            /* [threads * cells along x] all columns of the cell are of the same even rock */
+    struct piece *ring[3]; /* by family: [RING][points of a plane] */
     struct averaged *point;
     ptrdiff_t next; /* the piece that none has been made of; number 0 begins at face z- */
     bool part;      /* of damped ground */
@@ -76,7 +77,7 @@ static void sample_at(const struct medium *medium, const double place[3], double
     piece_sample(&rock, medium->part ? &shares : NULL, height, part, sum);
 }
 
-/* One piece of a column whose place is `place`. */
+/* One piece of a column whose place is `place`; jump NULL: it is even rock. */
 static void average_piece(const struct medium *medium, double place[3], double drop, ptrdiff_t number,
                           double *jump, struct piece *sum)
 {
@@ -85,7 +86,7 @@ static void average_piece(const struct medium *medium, double place[3], double d
     const double h = depth_spacing(medium), low = medium->c->layout[DEPTH]->low;
     const double from = low + (double)number * h / 2, to = low + (double)(number + 1) * h / 2;
     const double middle = (from + to) / 2;
-    size_t count = find_jumps(medium, place, drop, from, to, jump);
+    size_t count = jump == NULL ? 0 : find_jumps(medium, place, drop, from, to, jump);
     *sum = (struct piece){.even = count == 0 && !ground_grades(scene)};
     for (int n = 0; n < POSITIVE; n++)
         sum->least[n] = INFINITY;
@@ -112,8 +113,14 @@ static ptrdiff_t pieces_of(const struct medium *medium)
     return 2 * (ptrdiff_t)medium->c->layout[DEPTH]->cells;
 }
 
-/* Mean of a column over its lines; above and below the lattice the mirror image, so that averages add up to what there
- * is of the rock. */
+/* Above and below the lattice the mirror image, so that averages add up to what there is of the rock. */
+static ptrdiff_t within_lattice(const struct medium *medium, ptrdiff_t number)
+{
+    const ptrdiff_t pieces = pieces_of(medium);
+    return number < 0 ? -1 - number : number >= pieces ? 2 * pieces - 1 - number : number;
+}
+
+/* Mean of a column over its lines. */
 static void average_column(const struct medium *medium, const size_t at[2], double drop, ptrdiff_t number,
                            double *jump, struct piece *sum)
 {
@@ -121,9 +128,7 @@ static void average_column(const struct medium *medium, const size_t at[2], doub
     const double place[2] = {columns_place(x, at[0]), columns_place(y, at[1])};
     const size_t lines = x->lines * y->lines;
     const double share = 1. / (double)lines;
-    const ptrdiff_t pieces = pieces_of(medium), within = number < 0         ? -1 - number
-                                                         : number >= pieces ? 2 * pieces - 1 - number
-                                                                            : number;
+    const ptrdiff_t within = within_lattice(medium, number);
     for (size_t j = 0, n = 0; j < y->lines; j++)
         for (size_t i = 0; i < x->lines; i++, n++) {
             double there[3] = {place[0] + columns_line(x, at[0], i), place[1] + columns_line(y, at[1], j), 0};
@@ -139,6 +144,58 @@ static void average_column(const struct medium *medium, const size_t at[2], doub
             piece_add(&one, share, share, sum);
             sum->slope[SLOPE_NONE] += share * one.slope[SLOPE_NONE];
         }
+}
+
+static double drop_at(const struct medium *medium, size_t i, size_t j)
+{
+    return medium->drop != NULL ? medium->drop[j * medium->along[0].count + i] : 0;
+}
+
+/* Are columns first .. end - 1 of row j sure to be of one rock in a piece? */
+static bool is_even(const struct medium *medium, size_t first, size_t end, size_t j, ptrdiff_t number)
+{
+    const struct scene *scene = medium->c->model.scene;
+    const struct columns *along = medium->along;
+    const size_t ends[2][2] = {{first, end - 1}, {j, j}};
+    const double h = depth_spacing(medium), top = medium->c->layout[DEPTH]->low + (double)number * h / 2;
+    double low[3], high[3], drop[2] = {drop_at(medium, first, j), drop_at(medium, first, j)};
+    for (int slot = 0; slot < 2; slot++) {
+        const double place[2] = {columns_place(&along[slot], ends[slot][0]),
+                                 columns_place(&along[slot], ends[slot][1])};
+        low[slot] = fmin(place[0], place[1]) - along[slot].step;
+        high[slot] = fmax(place[0], place[1]) + along[slot].step;
+    }
+    for (size_t i = first + 1; i < end; i++) {
+        drop[0] = fmin(drop[0], drop_at(medium, i, j));
+        drop[1] = fmax(drop[1], drop_at(medium, i, j));
+    }
+    low[scene->dimension - 1] = fmin(real(medium, drop[0], top), real(medium, drop[1], top));
+    high[scene->dimension - 1] = fmax(real(medium, drop[0], top + h / 2), real(medium, drop[1], top + h / 2));
+    return ground_is_even(scene, low, high);
+}
+
+/* A piece of columns first .. end - 1 of row j. *even: they are of one rock, and what is there is. */
+static void fill_columns(const struct medium *medium, size_t first, size_t end, size_t j, ptrdiff_t number,
+                         double *jump, struct piece *column, bool *even)
+{
+    const bool was = *even;
+    *even = is_even(medium, first, end, j, within_lattice(medium, number));
+    struct piece one;
+    average_column(medium, (size_t[2]){first, j}, drop_at(medium, first, j), number, *even ? NULL : jump,
+                   &one);
+    piece_follow(&column[first], &one);
+    const bool there = *even && was && one.alike > 0;
+    if (!there) column[first] = one;
+    piece_follow(first > 0 ? &column[first - 1] : NULL, &column[first]);
+    for (size_t i = first + 1; i < end; i++) {
+        if (*even && !there) column[i] = one;
+        if (*even) {
+            column[i].alike = column[i - 1].alike + 1;
+            continue;
+        }
+        average_column(medium, (size_t[2]){i, j}, drop_at(medium, i, j), number, jump, &column[i]);
+        piece_follow(&column[i - 1], &column[i]);
+    }
 }
 
 static void *held(struct medium *medium, size_t count, size_t size)
@@ -160,6 +217,11 @@ static bool lay_drops(struct medium *medium)
     return medium->drop != NULL;
 }
 
+static size_t cells_of(const struct columns *along)
+{
+    return along->varies ? along->halves / 2 : 1;
+}
+
 struct medium *medium_new(const struct consistent *c)
 {
     struct medium *medium = array_new(1, sizeof *medium);
@@ -174,9 +236,10 @@ struct medium *medium_new(const struct consistent *c)
     for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
         medium->row[at] = held(medium, along[0].points * along[1].count, sizeof **medium->row);
     medium->point = held(medium, along[0].points * along[1].points, sizeof *medium->point);
+    medium->even = held(medium, (size_t)c->threads * cells_of(&along[0]), sizeof *medium->even);
     medium->jump = held(medium, (size_t)c->threads * medium->room, sizeof *medium->jump);
     good = good && medium->column != NULL && medium->row[0] != NULL && medium->row[1] != NULL &&
-           medium->point != NULL && medium->jump != NULL;
+           medium->point != NULL && medium->jump != NULL && medium->even != NULL;
     medium->eigen = gsl_eigen_symmv_alloc(3);
     medium->values = gsl_vector_alloc(3);
     medium->vectors = gsl_matrix_alloc(3, 3);
@@ -197,6 +260,7 @@ void medium_free(struct medium *medium)
     columns_free(&medium->along[1]);
     array_free(medium->drop);
     array_free(medium->column);
+    array_free(medium->even);
     for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
         array_free(medium->row[at]);
     for (int f = 0; f < 3; f++)
@@ -225,12 +289,10 @@ static void advance(struct medium *medium)
     for (size_t j = 0; j < y->count; j++) {
         const size_t thread = (size_t)omp_get_thread_num();
         struct piece *column = medium->column + thread * x->count;
-        for (size_t i = 0; i < x->count; i++) {
-            const double drop = medium->drop != NULL ? medium->drop[j * x->count + i] : 0;
-            average_column(medium, (size_t[2]){i, j}, drop, number, medium->jump + thread * medium->room,
-                           &column[i]);
-            piece_follow(i > 0 ? &column[i - 1] : NULL, &column[i]);
-        }
+        for (size_t cell = 0; cell < cells_of(x); cell++)
+            fill_columns(medium, x->varies ? x->first[2 * cell] : 0, x->varies ? x->first[2 * cell + 2] : 1,
+                         j, number, medium->jump + thread * medium->room, column,
+                         &medium->even[thread * cells_of(x) + cell]);
         for (int at = AT_KNOTS; at <= AT_MIDDLES; at++)
             for (size_t i = 0; i < x->points - (at == AT_MIDDLES ? 1 : 0); i++)
                 columns_average(x, (enum at)at, i, column, 1, &medium->row[at][j * x->points + i]);
