@@ -16,7 +16,7 @@
 
 void moving_weights(double weight[MOVING_SHIFTS])
 {
-    static const double flat = 13.6980; /* third zero of the spherical Bessel function j_3 */
+    static const double flat = 20.1218; /* fifth zero of the spherical Bessel function j_3 */
     double sum = weight[0] = 1;
     for (int j = 1; j < MOVING_SHIFTS; j++) {
         const double part = (double)j / MOVING_SHIFTS;
@@ -27,20 +27,23 @@ void moving_weights(double weight[MOVING_SHIFTS])
         weight[j] /= sum;
 }
 
-/* The mean's reach: nine spacings over the slowest S wave's speed, or the load's where that is more; none where the
- * load is about as fast as the Rayleigh waves beside it, and short waves are what it sends. */
+/* The mean's reach, which stops waves of 3 points, of a slow patch those that it would send back (Eq 7a): none where
+ * the load is about as fast as the Rayleigh waves beside it, and short waves are what it sends. */
 static double lag(const struct consistent *c, const struct load *load, const double velocity[3])
 {
-    static const double spacings = 9, rayleigh = .92;
+    static const double least = 3, more = 1.5, most = 4.6, spacings = 18 / 4.6, rayleigh = .92;
     const struct scene *scene = c->model.scene;
-    double place[3];
+    double place[3], points = least;
     lattice_from_deck(&scene->body, load->centre, place);
     consistent_to_ground(c, place);
     const struct rock rock = ground_at(scene, place);
     const double here = sqrt(rock.mu / rock.density), slowest = fmin(slowest_speed(scene), here);
     const double speed = hypot(hypot(velocity[0], velocity[1]), velocity[2]);
-    return speed < rayleigh * here ? spacings / MOVING_SHIFTS * scene->body.spacing / fmax(slowest, speed)
-                                   : 0;
+    for (int axis = 0; axis < 3; axis++)
+        if (velocity[axis] != 0) points = fmax(points, fmin(most, more + slowest / fabs(velocity[axis])));
+    return speed < rayleigh * here
+               ? spacings * points / MOVING_SHIFTS * scene->body.spacing / fmax(slowest, speed)
+               : 0;
 }
 
 /* The mean is one of lines then. */

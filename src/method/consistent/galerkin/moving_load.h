@@ -5,7 +5,7 @@
 
 #include "method/consistent/galerkin/galerkin.h"
 
-enum { MOVING_SHIFTS = 18 };
+enum { MOVING_SHIFTS = 27 };
 
 struct moving_line {
     double *value;   /* [control values of the axis] */
