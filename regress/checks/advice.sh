@@ -379,4 +379,43 @@ else
     echo "not ok - the report tells too"
     failures=$((failures + 1))
 fi
+# --- Words without effect ---
+cat >idle.nml <<'END'
+&scene dimension = 2, end_time = 6 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', low = 0, 0, high = 4, 4, spacing = 0.25 /
+&load face = 'y-', shape = 'square', centre = 2, 0, size = 1, direction = 0, 1, history = 'gaussian', width = 1, delay = 5 /
+&receiver name = 'r', position = 2, 1 /
+&output plots = .false. /
+END
+deck=idle.nml
+lattice="body%jitter has no effect here: the splines of variant 'consistent' have an even lattice"
+told "jitter of splines" "$lattice" body%jitter=.2 method%variant=consistent
+told "a seed without jitter" "body%seed has no effect here" body%seed=3
+told "mechanisms of undamped ground" "method%mechanisms has no effect here: nothing is damped" method%mechanisms=4
+untold "as many as there are" method%mechanisms=3
+untold "mechanisms of damped ground" method%mechanisms=6 'material(1)%q_p=50' 'material(1)%q_s=30' 'layer%material=rock' layer%top=2
+told "a balance of what is not damped" "output%balance has no effect here" output%balance=T
+untold "none of it" output%balance=F
+told "small waves left out beside the exact mass" "method%quiet has no effect here" method%quiet=1e-9 method%mass=exact
+untold "all that moves taken there" method%quiet=0 method%mass=exact
+told "the mass over depth of layers" "method%depth_mass has no effect here" method%depth_mass=same layer%material=rock layer%top=2
+told "the strike of a level layer" "layer%strike has no effect here: the layer is level" layer%strike=90 layer%material=rock layer%top=2 method%mass=vc3 method%degree=2
+told "a rule of another scheme" "stepping%rule has no effect here: the stages of this scheme are fixed" stepping%rule=paper
+sed "s/centre = 2, 0, size = 1, direction = 0, 1/direction = 1/; s/y-/x-/; s/dimension = 2/dimension = 1/; s/low.*high = 4, 4/low = 0, high = 4/; s/2, 1 /2 /" idle.nml >line.nml
+deck=line.nml
+told "a patch along one dimension" "load%shape has no effect here"
+sed "s/shape = 'square', //" line.nml >bar.nml
+deck=bar.nml
+untold "a bar"
+told "slip along it" "boundary%slip has no effect here" boundary%face=x+ boundary%kind=displacement boundary%direction=1 boundary%history=gaussian boundary%width=1 boundary%delay=5 boundary%slip=T
+sph="method%name=sph method%variant=updated-lagrangian body%spacing=.05"
+told "stages by a rule for a step that nobody gives" "stepping%rule has no effect here: it chooses stages for" $sph stepping%rule=paper
+untold "for one that is given" $sph stepping%rule=paper stepping%time_step=.005
+told "turns along a line" "method%jaumann has no effect here" $sph method%jaumann=F
+told "a kernel beside central differences" "method%kernel has no effect here" method%name=sph method%gradient=central method%kernel=quintic
+untold "of its viscosity" method%name=sph method%gradient=central method%kernel=quintic method%viscosity_alpha=.1
+moved="boundary%face=x+ boundary%kind=displacement boundary%direction=1 boundary%history=gaussian boundary%width=1 boundary%delay=5 load%amplitude=0"
+told "a receiver far from a face that moves" "no wave comes as far as receiver 'r'" $moved body%high=100
+untold "one that its wave comes to" $moved
 exit $failures

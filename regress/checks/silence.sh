@@ -1322,4 +1322,10 @@ DECK
 untold "a model in metres" check metres.nml
 told "the same of a deck in km" "its slowest wave, 1700, crosses the body 1.7e.03 times by end_time" check metres.nml \
     body%low=-2,-2,0 body%high=2,2,2 body%spacing=.2 load%centre=0,0,1 receiver%position=1.5,1,0
+
+# --- A length that says nothing ---
+long="direction has the length 1000, .*amplitude = 1000 would be right"
+told "a long direction" "$long" check below.nml load%kind=body-force load%shape=point load%moment= load%direction=0,1000
+untold "one beside an amplitude" check below.nml load%kind=body-force load%shape=point load%moment= load%direction=0,1000 load%amplitude=2
+untold "an askew one" check below.nml load%kind=body-force load%shape=point load%moment= load%direction=3,4
 exit $failures

@@ -210,6 +210,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_moments(&adviser);
     look_at_step(&adviser, stepper);
     look_at_nothing(&adviser);
+    look_at_idle_words(&adviser, stepper);
     look_at_tables(&adviser, stepper);
     look_at_ligament(&adviser);
     look_at_voids(&adviser, stepper->model);

@@ -73,19 +73,51 @@ static void look_at_rest(struct adviser *adviser)
         advise(adviser, "nothing acts: no load, no face that moves, no state at t = 0; all results are 0");
 }
 
-/* When the fastest wave of the loads comes to a place, at the earliest; 0 where one acts all over the body or moves. */
+static double distance(const double one[3], const double other[3])
+{
+    return hypot(hypot(one[0] - other[0], one[1] - other[1]), one[2] - other[2]);
+}
+
+/* From the plane of a face; 0 from the hole. */
+static double from_face(const struct scene *scene, enum face face, const double place[3])
+{
+    double own[3];
+    if (face == FACE_HOLE) return 0;
+    body_from_deck(&scene->body, place, own);
+    return fabs(own[face_axis(face)] - face_plane(&scene->body, face));
+}
+
+/* 0 from what acts all over the body or moves. */
+static double from_load(const struct scene *scene, const struct load *load, const double place[3])
+{
+    const double size = has_patch(load) ? hypot(load->size[0], load->size[1]) / 2 : 0;
+    if (load_moves(load)) return 0;
+    if (load->shape == LOAD_FACE)
+        return load->kind == LOAD_TRACTION ? from_face(scene, load->face, place) : 0;
+    return distance(place, load->centre) - size;
+}
+
+/* When the fastest wave comes to a place, at the earliest, of loads, faces that move and the state at t = 0. */
 static double earliest(const struct scene *scene, const double place[3])
 {
     static const double spread = 2; /* spacings over which a lattice spreads a point */
+    const struct initial *initial = &scene->initial;
+    const double speed = scene_fastest(scene), before = spread * scene->body.spacing;
     double time = INFINITY;
+    if (initial->kind != INITIAL_REST && initial->kind != INITIAL_GAUSSIAN) return 0;
+    if (initial->kind == INITIAL_GAUSSIAN)
+        time = fmax(distance(place, initial->centre) - STATE_REACH * initial->width - before, 0) / speed;
     for (size_t k = 0; k < scene->loads; k++) {
         const struct load *load = &scene->load[k];
-        if (load->shape == LOAD_FACE || load_moves(load)) return 0;
-        const double size = has_patch(load) ? hypot(load->size[0], load->size[1]) / 2 : 0;
-        const double way =
-            hypot(hypot(place[0] - load->centre[0], place[1] - load->centre[1]), place[2] - load->centre[2]) -
-            size - spread * scene->body.spacing;
-        time = fmin(time, load->history.start + fmax(way, 0) / scene_fastest(scene));
+        if (load->amplitude == 0) continue;
+        const double way = from_load(scene, load, place) - before;
+        time = fmin(time, load->history.start + fmax(way, 0) / speed);
+    }
+    for (int face = 0; face < FACES; face++) {
+        const struct boundary *boundary = &scene->boundary[face];
+        if (!boundary_acts(boundary)) continue;
+        const double way = from_face(scene, (enum face)face, place) - before;
+        time = fmin(time, boundary->history.start + fmax(way, 0) / speed);
     }
     return time;
 }
@@ -99,12 +131,10 @@ static void look_at_reach(struct adviser *adviser)
     static const double far = 2;
     double latest = 0;
     size_t missed = 0, last = 0;
-    if (scene->loads == 0 || scene_driven(scene) || scene->initial.kind != INITIAL_REST) return;
-    for (int face = 0; face < FACES; face++)
-        if (boundary_acts(&scene->boundary[face])) return;
+    if (scene_driven(scene)) return;
     for (size_t r = 0; r < scene->receivers; r++) {
         const double time = earliest(scene, scene->receiver[r].position);
-        missed += time > far * scene->end_time;
+        missed += isfinite(time) && time > far * scene->end_time; /* or nothing acts: told */
         if (time > latest) last = r;
         latest = fmax(latest, time);
     }

@@ -3,7 +3,7 @@
  * (states and weights where the rock jumps), fields.c (stresses there), places.c (receivers near sources, surfaces
  * before layers), layers.c (absorbing layers), mirrors.c (symmetry planes), edges.c (moved faces that meet
  * others), voids.c (places in holes and gaps), beyond.c (ground that goes on), stacks.c (ground that goes to and
- * fro), soft.c (thin soft layers), bending.c (slender bodies of particles). */
+ * fro), soft.c (thin soft layers), bending.c (slender bodies of particles), idle.c (words that change nothing). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 
@@ -31,6 +31,8 @@ void advise(struct adviser *adviser, const char *format, ...) __attribute__((for
 
 /* Is the ground, level layers too, carried by the general operator? */
 bool by_general_operator(const struct scene *scene);
+/* Has the consistent method the exact mass there? */
+bool by_exact_mass(const struct scene *scene);
 /* Largest distance of neighbouring points about a place of the deck. */
 double spacing_at(const struct scene *scene, const double position[3]);
 /* A traction on a square or a disc. */
@@ -67,6 +69,8 @@ bool jumps_in(const struct scene *scene, const double low[3], const double high[
 
 /* What does nothing (nothing.c). */
 void look_at_nothing(struct adviser *adviser);
+/* Words that change nothing (idle.c). */
+void look_at_idle_words(struct adviser *adviser, const struct stepper *stepper);
 /* Short waves in the state at t = 0, faces that cut it, a velocity that jumps at them. */
 void look_at_short_waves(struct adviser *adviser, const struct model *model);
 void look_at_cut_start(struct adviser *adviser);

@@ -29,7 +29,7 @@ static bool shallow(const struct scene *scene, const double position[3])
 
 /* Beside the exact mass velocities on the axes of the lattice were .02 to .67 wrong as near as this
  * (doc/theory/sources.md, "The method"). */
-static bool by_exact_mass(const struct scene *scene)
+bool by_exact_mass(const struct scene *scene)
 {
     const struct deck_group *group = scene->method.group;
     if (group != NULL && deck_given(group, "mass")) return deck_chosen(group, "mass", "exact");

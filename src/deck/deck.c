@@ -5,6 +5,7 @@
 
 #include <assert.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 size_t deck_count(const struct deck *deck, const char *group)
@@ -154,6 +155,27 @@ bool deck_chosen(const struct deck_group *group, const char *name, const char *c
     if (group == NULL || deck_values(group, name) == 0) return false;
     assert(word_find_choice(choice_word(group, name), choice) < word_choices(choice_word(group, name)));
     return strcmp(deck_text(group, name, 0), choice) == 0;
+}
+
+bool deck_says(const struct deck_group *group, const char *name, const char *text)
+{
+    size_t word;
+    group_item(group, name, &word);
+    const struct value *value = group_value(group, word, 0);
+    if (value == NULL) return false;
+    switch (group->kind->word[word].type) {
+    case WORD_REAL:
+        return value->as.real == strtod(text, NULL);
+    case WORD_INTEGER:
+        return value->as.integer == strtol(text, NULL, 10);
+    case WORD_LOGICAL:
+        return value->as.logical == (strcmp(text, ".true.") == 0);
+    case WORD_TEXT:
+    case WORD_FILE:
+    case WORD_CHOICE:
+        return strcmp(value->as.text, text) == 0;
+    }
+    return false;
 }
 
 const char *deck_source_path(const struct deck *deck)

@@ -67,6 +67,8 @@ const char *deck_text(const struct deck_group *group, const char *name, size_t i
 /* Is the value `choice`, one of those that the table lists for the name (asserted)? No without a group or a
  * value. */
 bool deck_chosen(const struct deck_group *group, const char *name, const char *choice);
+/* Is the first value the one that the text says ('3', '.true.', a choice)? No without a value. */
+bool deck_says(const struct deck_group *group, const char *name, const char *text);
 /* Index of a text value in those choices, that is, the member of the enumeration made from the same list
  * (deck/choices.h). */
 size_t deck_choice(const struct deck_group *group, const char *name, size_t i);

@@ -37,17 +37,22 @@ static bool has_word(const char *words, const char *word)
     return false;
 }
 
+bool method_has_word(const struct method *method, const char *word)
+{
+    static const char all[] = "name variant symmetry precision";
+    return method->words == NULL || has_word(all, word) || has_word(method->words, word);
+}
+
 /* Words of another method are told of: the deck may have been made for it. */
 static void warn_of_idle_words(const struct method *method, const struct scene *scene,
                                struct messages *messages)
 {
-    static const char all[] = "name variant symmetry precision";
     const struct deck_group *group = scene->method.group;
     const char *first = NULL;
     char idle[256] = "";
-    for (size_t i = 0; group != NULL && method->words != NULL && deck_word(group, i) != NULL; i++) {
+    for (size_t i = 0; group != NULL && deck_word(group, i) != NULL; i++) {
         const char *word = deck_word(group, i);
-        if (!deck_given(group, word) || has_word(all, word) || has_word(method->words, word)) continue;
+        if (!deck_given(group, word) || method_has_word(method, word)) continue;
         const size_t length = strlen(idle);
         snprintf(idle + length, sizeof idle - length, "%s'%s'", first != NULL ? ", " : "", word);
         if (first == NULL) first = word;

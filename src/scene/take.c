@@ -77,6 +77,21 @@ bool need_vector(struct builder *builder, const struct deck_group *group, const 
     return take_vector(builder, group, name, vector);
 }
 
+/* The length of a direction is nothing: a force or a motion is as large as `amplitude`. Askew ones have lengths such as
+ * those of (1, 1) or (3, 4). */
+static void warn_of_length(struct builder *builder, const struct deck_group *group, const double vector[3],
+                           double length)
+{
+    static const double most = 10;
+    const double sum = fabs(vector[0]) + fabs(vector[1]) + fabs(vector[2]);
+    const bool along_axis = sum == length, askew = length >= 1 / most && length <= most;
+    if (deck_given(group, "amplitude") || (along_axis ? length == 1 : askew)) return;
+    deck_warning(builder->deck, group, "direction", builder->messages,
+                 "direction has the length %g, which says nothing of how large: that is amplitude, here 1; "
+                 "amplitude = %g would be right if that is meant",
+                 length, length);
+}
+
 bool need_direction(struct builder *builder, const struct deck_group *group, const char *name,
                     const char *purpose, double unit[3])
 {
@@ -93,6 +108,7 @@ bool need_direction(struct builder *builder, const struct deck_group *group, con
     length = sqrt(length);
     for (int c = 0; c < 3; c++)
         unit[c] = vector[c] / largest / length;
+    if (strcmp(name, "direction") == 0) warn_of_length(builder, group, vector, largest * length);
     return true;
 }
 

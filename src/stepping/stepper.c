@@ -224,20 +224,6 @@ static const struct scheme_class *choose_default(struct stepper *stepper)
     return &scheme_modified_equation;
 }
 
-/* Words of another scheme are told of: the deck may have been made for it. */
-static void warn_of_idle_words(const struct stepper *stepper, struct messages *messages)
-{
-    static const char *const of_stages[] = {"stages", "max_stages", "rule", NULL};
-    const struct deck *deck = stepper->model->scene->deck;
-    const struct deck_group *group = deck != NULL ? deck_get(deck, "stepping", 0) : NULL;
-    if (group == NULL || (stepper->scheme->can & SCHEME_STAGES) != 0) return;
-    for (const char *const *word = of_stages; *word != NULL; word++)
-        if (deck_given(group, *word))
-            deck_warning(deck, group, *word, messages,
-                         "scheme '%s' has no use for '%s': its stages are fixed", stepper->scheme->name,
-                         *word);
-}
-
 static selas_status choose_scheme(struct stepper *stepper, struct messages *messages)
 {
     const struct model *model = stepper->model;
@@ -249,7 +235,6 @@ static selas_status choose_scheme(struct stepper *stepper, struct messages *mess
         return fail(messages, SELAS_UNSUPPORTED,
                     "scheme '%s' does not fit method '%s', variant '%s'; expected %s", name,
                     model->method->name, model->method->variant, scheme_names(model, 0, names));
-    warn_of_idle_words(stepper, messages);
     return check_abilities(stepper, messages);
 }
 
