@@ -374,6 +374,22 @@ untold "that does (half the step does not)" -q grows.nml method%hourglass=.1
 told "a third of what was given" "of energy that nobody gave it" -q grows.nml scene%end_time=5.5
 reported "the report tells of it, too" "^warning: the body ends with .* nobody gave it"
 
+# a bar whose free end has no ghosts (velocities .77 wrong), and one in which nothing holds motions that alternate (1.8)
+cat >bare.nml <<'END'
+&scene dimension = 1, end_time = 7.4 /
+&method name = 'sph', variant = 'updated-lagrangian', viscosity_alpha = .5, viscosity_beta = .5, artificial_stress = 0 /
+&material name = 'rock', density = 1, p_speed = 1.87, s_speed = 1 /
+&body material = 'rock', spacing = .1, low = 0, high = .8 /
+&boundary face = 'x-', kind = 'roller' /
+&load kind = 'body-force', direction = 1, amplitude = .001, history = 'gaussian', width = .48, delay = 1.93 /
+&receiver name = 'r', position = .5 /
+&output plots = F, directory = 'out' /
+END
+told "a free face without ghosts" "updated-lagrangian' err by up to 1 when" check bare.nml
+told "motions that alternate" "nothing holds motions that alternate from particle to particle.*hourglass = 0.02" check bare.nml method%viscosity_alpha=0 method%viscosity_beta=0
+"$selas" check bare.nml method%viscosity_alpha=0 method%viscosity_beta=0 method%hourglass=.02 >said 2>&1 && ! grep -q alternate said
+verdict "hourglass control holds them" $?
+
 # a cantilever with a loaded end: the artificial stress acts between particles and is no traction
 cat >bends.nml <<'END'
 &scene dimension = 2, end_time = 1.8 /

@@ -223,9 +223,11 @@ enum patch_sight {
  * largest amplitude: floor + sent / p^sent_order. Of the consistent method alone: shares of it that a Gaussian
  * state errs by, as it is and as slower waves (initial-states.md). Of the paper's: what they err by at each end of
  * a bar that is not held. Of scattered points the share of `floor` that their scatter has. Frequencies of a beam
- * of n points across are bends / n^bends_order of themselves too low; 0: not told. */
+ * of n points across are bends / n^bends_order of themselves too low; 0: not told. By `bare` spacings less waves run to
+ * and fro at each free face that no load acts on. */
 struct wave_law {
-    double constant, order, floor, spread, turned, shear, sent, sent_order, ends, scatter, bends, bends_order;
+    double constant, order, floor, spread, turned, shear, sent, sent_order, ends, scatter, bends, bends_order,
+        bare;
 };
 
 struct model {
@@ -264,6 +266,7 @@ struct model {
     unsigned parts;        /* operators whose sum a step takes, each rounded, if more than one */
     enum patch_sight patch;
     struct wave_law waves;
+    bool alternates;   /* nothing holds motions that alternate from point to point */
     double shallow;    /* moment tensors that pull across a free face err nearer to it than this [spacings] */
     bool self_adjoint; /* K is symmetric and energy() gives u.Ku/2 and v.Mv/2: Lanczos may be used */
     const double (

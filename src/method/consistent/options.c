@@ -144,11 +144,17 @@ struct wave_law consistent_waves(const struct consistent_options *options)
     static const double sent_exactly[SPLINE_MAX_DEGREE - 1] = {15, 150, 2200};
     const int degree = options->degree, sweeps = options->sweeps;
     const bool exact = sweeps == 0, plain = degree == 2 && exact;
-    if (degree == 1) return (struct wave_law){12, 2, 0, .44, .26, 0, 8, 2, 0, 0, 0, 0};
+    if (degree == 1)
+        return (struct wave_law){
+            .constant = 12, .order = 2, .spread = .44, .turned = .26, .sent = 8, .sent_order = 2};
     const double most = constant[degree - 2][sweeps];
     const double sent = exact ? sent_exactly[degree - 2] : (sweeps == 1 ? .4 : .25) * most;
-    return (struct wave_law){most, 4, 0, .24, plain ? .26 : .093, 0, sent, exact ? 2 * degree : 4,
-                             0,    0, 0, 0};
+    return (struct wave_law){.constant = most,
+                             .order = 4,
+                             .spread = .24,
+                             .turned = plain ? .26 : .093,
+                             .sent = sent,
+                             .sent_order = exact ? 2 * degree : 4};
 }
 
 /* The deck's options; what it leaves open has the method's defaults. Layered ground has degree 4, the exact mass and

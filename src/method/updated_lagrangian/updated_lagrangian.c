@@ -228,6 +228,9 @@ static void fill_public_face(struct updated *updated)
                    updated_hourglass_bytes(updated);
 }
 
+/* From here on it is what waves err by, and holds motions that alternate from particle to particle. */
+#define ENOUGH_VISCOSITY .5
+
 /* Viscosity damps to order 1 what is wrong to order 2 (180 / p^2 without any; by the kernel), of a pulse that is
  * seen at end_time alone. A uniform stress pushes scattered particles aside, against hourglass control and what
  * else holds them: waves are slower, whatever the spacing (measured: regress/studies/bodies/scattered). */
@@ -237,7 +240,7 @@ static struct wave_law waves_of(const struct updated *updated, double disorder)
     const double lost =
         kernel_dispersion(options->kernel, updated->dimension, options->smoothing_length, 0); /* (2.1) */
     const double scatter = 50 / (1 + 10 * options->hourglass) * disorder / updated->dimension;
-    const bool thick = options->alpha >= .5;
+    const bool thick = options->alpha >= ENOUGH_VISCOSITY;
     const int order = thick ? 1 : 2;
     const double coarser = cloud_mean_power(updated->cloud, order);
     return (struct wave_law){.constant = coarser * (thick ? 1.3 + 1.55 * options->alpha : 44 * lost),
@@ -247,7 +250,8 @@ static struct wave_law waves_of(const struct updated *updated, double disorder)
                              .floor = .5 * options->artificial_stress + scatter,
                              .scatter = scatter,
                              .bends = 1,
-                             .bends_order = 1};
+                             .bends_order = 1,
+                             .bare = .94 * options->smoothing_length}; /* (U14) */
 }
 
 static selas_status build(struct updated *updated, struct messages *messages)
@@ -274,6 +278,8 @@ static selas_status build(struct updated *updated, struct messages *messages)
     double disorder = 0;
     if (updated->cloud->grid[0] == 0) status = updated_disorder(updated, &disorder, messages);
     updated->model.waves = waves_of(updated, disorder);
+    updated->model.alternates =
+        !(updated->options.alpha >= ENOUGH_VISCOSITY || updated->options.hourglass > 0);
     return status;
 }
 
