@@ -390,6 +390,20 @@ told "motions that alternate" "nothing holds motions that alternate from particl
 "$selas" check bare.nml method%viscosity_alpha=0 method%viscosity_beta=0 method%hourglass=.02 >said 2>&1 && ! grep -q alternate said
 verdict "hourglass control holds them" $?
 
+# a patch whose edges lie between the points of a file: a whole number of them is pressed (momentum .82 of what is meant)
+awk 'BEGIN { for (i = 0; i < 20; i++) for (j = 0; j < 12; j++) print (i + .5) / 10, (j + .5) / 10, .01 }' >even.txt
+cat >pressed.nml <<'END'
+&scene dimension = 2, end_time = 6 /
+&method name = 'sph', variant = 'updated-lagrangian' /
+&material name = 'rock', density = 1, lambda = 1, mu = 1 /
+&body material = 'rock', shape = 'points', file = 'even.txt', spacing = .1, low = 0, 0, high = 2, 1.2 /
+&load face = 'y-', shape = 'square', centre = 1, 0, size = .49, direction = 0, 1, history = 'gaussian', width = .6, delay = 2.4 /
+&receiver name = 'r', position = 1, .6 /
+END
+told "a patch on a file's particles" "the particles in load 1 have 0.816 of its area" check pressed.nml
+"$selas" check pressed.nml load%size=.4 >said 2>&1 && ! grep -q "of its area" said
+verdict "one that they fill" $?
+
 # a cantilever with a loaded end: the artificial stress acts between particles and is no traction
 cat >bends.nml <<'END'
 &scene dimension = 2, end_time = 1.8 /

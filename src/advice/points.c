@@ -67,14 +67,47 @@ static double pressed_share(const struct scene *scene, const struct load *load)
     return counted[1] > 0.0 ? counted[0] / counted[1] : 1.0;
 }
 
-static void look_at_particles(struct adviser *adviser, size_t k)
+/* The same of points of a file, each of which counts as an even part of the face that it lies next to. */
+static double counted_share(const struct scene *scene, const struct model *model, const struct load *load)
 {
-    static const double noticed = 0.02;
+    const struct body *body = &scene->body;
+    const int normal = face_axis(load->face);
+    double centre[3], whole = 1.0, own = 1.0;
+    size_t next = 0, pressed = 0;
+    body_from_deck(body, load->centre, centre);
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double half = half_size(load, axis);
+        if (axis == normal) continue;
+        whole *= body->high[axis] - body->low[axis];
+        own *= fmin(body->high[axis], centre[axis] + half) - fmax(body->low[axis], centre[axis] - half);
+    }
+    if (load->shape == LOAD_DISC && scene->dimension == 3) own *= M_PI / 4;
+    for (size_t i = 0; i < model->points; i++) {
+        double deck[3], place[3], square = 0.0;
+        bool within = true;
+        model_position(model, i, deck);
+        body_from_deck(body, deck, place);
+        if (fabs(place[normal] - face_plane(body, load->face)) > 0.75 * body->spacing) continue;
+        for (int axis = 0; axis < scene->dimension; axis++) {
+            const double away = axis == normal ? 0.0 : fabs(place[axis] - centre[axis]);
+            square += away * away;
+            within = within && (axis == normal || away <= half_size(load, axis));
+        }
+        next++;
+        pressed += within && (load->shape != LOAD_DISC || square <= 0.25 * load->size[0] * load->size[0]);
+    }
+    return next > 0 && own > 0.0 ? (double)pressed / (double)next * whole / own : 1.0;
+}
+
+static void look_at_particles(struct adviser *adviser, const struct model *model, size_t k)
+{
     const struct scene *scene = adviser->scene;
     const struct load *load = &scene->load[k];
-    const double share = pressed_share(scene, load);
+    const bool box = body_is_box(&scene->body);
+    const double noticed = box ? 0.02 : 0.05; /* of a file the face is counted, too */
+    const double share = box ? pressed_share(scene, load) : counted_share(scene, model, load);
     if (fabs(share - 1.0) < noticed || scene->body.jitter > 0.0) return;
-    if (load->shape == LOAD_SQUARE)
+    if (box && load->shape == LOAD_SQUARE)
         look_at_edges(adviser, k, "the particles' cells, which are pressed whole or not at all");
     else
         advise(adviser,
@@ -118,7 +151,8 @@ void look_at_points(struct adviser *adviser, const struct model *model, size_t k
     const bool box = body_is_box(&adviser->scene->body);
     if (sight == PATCH_BY_POINTS && box && adviser->scene->load[k].shape == LOAD_SQUARE)
         look_at_edges(adviser, k, "points");
-    if (sight == PATCH_BY_CELLS && box) look_at_particles(adviser, k);
+    if (sight == PATCH_BY_CELLS && (box || adviser->scene->body.shape == BODY_POINTS))
+        look_at_particles(adviser, model, k);
     if (sight == PATCH_RINGS) look_at_ringing(adviser, model, k);
 }
 
