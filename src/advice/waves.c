@@ -169,10 +169,11 @@ static double error_at_bare(const struct scene *scene, const struct wave_law *la
     return most * law->bare * k * scene->body.spacing;
 }
 
-/* Of 48 boxes drawn by chance 13 erred by more than waves do, with hourglass control one, with viscosity none. */
+/* What loads and moved faces give to walls. Of 45 boxes drawn by chance eight erred by more than 1.3 of what is told of
+ * waves, with hourglass control one of 50, with viscosity two. */
 static void look_at_alternation(struct adviser *adviser, const struct model *model)
 {
-    if (model->alternates)
+    if (model->alternates && sending_begins(adviser->scene) < adviser->scene->end_time)
         advise(
             adviser,
             "nothing holds motions that alternate from particle to particle: velocities were up to 9 times "
