@@ -3,6 +3,7 @@
 #include "damping/ground.h"
 
 #include "scene/ground.h"
+#include "scene/model_pieces.h"
 
 #include <math.h>
 
@@ -22,27 +23,41 @@ static size_t class_of(const struct ground_model *model, double q_s)
     return (size_t)fmin(fmax(part, 0) * SAMPLE_CLASSES, SAMPLE_CLASSES - 1);
 }
 
+/* Of each class the values whose bulk modulus loses least and most. */
+struct sampled {
+    const struct ground_model *model;
+    struct material found[SAMPLE_CLASSES + 1][2];
+    bool any[SAMPLE_CLASSES + 1];
+};
+
+static bool sample_box(void *context, const struct model_grid *box, size_t first_column)
+{
+    (void)first_column;
+    struct sampled *sampled = context;
+    for (size_t i = 0; i < box->n[0] * box->n[1] * box->n[2]; i++) {
+        const struct material value = ground_model_material(sampled->model, box, i);
+        const size_t class = class_of(sampled->model, value.q_s);
+        struct material *found = sampled->found[class];
+        const double loss = compression(&value);
+        if (!sampled->any[class]) found[0] = found[1] = value;
+        sampled->any[class] = true;
+        if (class == SAMPLE_CLASSES) continue;
+        if (loss < compression(&found[0])) found[0] = value;
+        if (loss > compression(&found[1])) found[1] = value;
+    }
+    return true;
+}
+
 size_t damping_samples(const struct ground_model *model, struct material sample[MOST_SAMPLES])
 {
-    struct material found[SAMPLE_CLASSES + 1][2];
-    bool any[SAMPLE_CLASSES + 1] = {false};
+    struct sampled sampled = {.model = model};
     size_t count = 0;
-    for (size_t g = 0; g < model->grids && model->damped; g++) {
-        const struct model_grid *grid = &model->grid[g];
-        for (size_t i = 0; i < grid->n[0] * grid->n[1] * grid->n[2]; i++) {
-            const struct material value = ground_model_material(model, grid, i);
-            const size_t class = class_of(model, value.q_s);
-            const double loss = compression(&value);
-            if (!any[class]) found[class][0] = found[class][1] = value;
-            any[class] = true;
-            if (class == SAMPLE_CLASSES) continue;
-            if (loss < compression(&found[class][0])) found[class][0] = value;
-            if (loss > compression(&found[class][1])) found[class][1] = value;
-        }
-    }
+    bool unread;
+    for (size_t g = 0; g < model->grids && model->damped; g++)
+        model_walk(&model->grid[g], sample_box, &sampled, &unread);
     for (size_t class = 0; class <= SAMPLE_CLASSES; class ++)
-        for (size_t k = 0; k < (class < SAMPLE_CLASSES ? 2 : 1) && any[class]; k++)
-            sample[count++] = found[class][k];
+        for (size_t k = 0; k < (class < SAMPLE_CLASSES ? 2 : 1) && sampled.any[class]; k++)
+            sample[count++] = sampled.found[class][k];
     return count;
 }
 

@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "host/simulation.h"
 #include "parallel/ranks.h"
+#include "scene/ground.h"
 
 #include <math.h>
 #include <omp.h>
@@ -232,6 +233,8 @@ selas_status simulation_prepare(selas_simulation *simulation)
     struct messages *messages = &simulation->messages;
     const struct stopwatch begun = start_watch();
     status = shared_check(simulation);
+    const struct ground_model *ground = simulation->scene->body.model;
+    ground_model_forget(ground);
     if (status == SELAS_OK && simulation->model == NULL)
         status = model_create(simulation->scene, &simulation->model, messages);
     if (ranks_idle(simulation->ranks)) return SELAS_STOPPED;
@@ -242,6 +245,9 @@ selas_status simulation_prepare(selas_simulation *simulation)
     if (status == SELAS_OK && simulation->recorder == NULL)
         status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
                                  &simulation->recorder, messages);
+    if (status == SELAS_OK && !ground_model_sound(ground))
+        status = fail(messages, SELAS_FILE_ERROR, "values of the &model cannot be read any more, or have no memory");
+    ground_model_forget(ground);
     status = ranks_agree(simulation->ranks, status, messages);
     if (status == SELAS_OK) recorder_weigh(simulation->recorder);
     simulation->prepared = status == SELAS_OK;

@@ -43,6 +43,10 @@ struct material ground_model_material(const struct ground_model *model, const st
 double ground_model_height(const struct ground_model *model, const double place[2]);
 /* Least distance of the heights of that surface in the file. */
 double ground_model_step(const struct ground_model *model);
+/* Lets go of what is kept of grids that are read in pieces; no other thread asks for values meanwhile. Takes NULL. */
+void ground_model_forget(const struct ground_model *model);
+/* False: values that were asked for could not be read (or had no memory). Takes NULL. */
+bool ground_model_sound(const struct ground_model *model);
 void ground_model_free(struct ground_model *model); /* takes NULL */
 /* Places from < x < to along a line through `place` at which the rock may jump, in no order; at most
  * ground_jumps_at_most(). */

@@ -195,10 +195,9 @@ static bool read_block(const struct blocks *blocks, size_t i)
                 (i + 1 < blocks->count ||
                  model_covers(blocks->source, 2, 0 - blocks->block[0].top, blocks->source->whole[2][1]));
     for (int which = 0; good && which < blocks->sets; which++) {
-        good = model_read_part(set, grid, first, blocks->component[which], grid->value[which]) ||
+        const struct model_column column = {set, blocks->component[which], blocks->factor[which]};
+        good = model_take(grid, blocks->sets, which, &column, first) ||
                model_fault(blocks->source, "cannot read block '%s'", name);
-        for (size_t k = 0; good && k < grid->n[0] * grid->n[1] * grid->n[2]; k++)
-            if (grid->value[which][k] > -1e19) grid->value[which][k] *= blocks->factor[which];
     }
     if (set >= 0) H5Dclose(set);
     return good;
@@ -210,7 +209,7 @@ static bool read_surface(const struct blocks *blocks, const char *name, struct m
     size_t first[3] = {0};
     const hid_t set = stored_set(blocks->group[1], name);
     bool good = lay_grid(blocks, set, name, 2, 0, surface, first);
-    if (good && !model_read_part(set, surface, first, 0, surface->value[0]))
+    if (good && !model_read_part(set, 2, surface->n, first, 0, surface->value[0]))
         good = model_fault(blocks->source, "cannot read '%s'", name);
     for (size_t k = 0; good && k < surface->n[0] * surface->n[1]; k++) {
         surface->value[0][k] = -surface->value[0][k];
@@ -304,7 +303,6 @@ static bool read_all(struct blocks *blocks, hid_t file)
              blocks->count, azimuth, blocks->bottom);
     model_tell_depth(source->model, blocks->floor ? "its solid ground, depths are stretched above its bottom"
                                                   : "its top, depths are stretched above its bottom");
-    model_fill(source, -1e19);
     return true;
 }
 
@@ -313,6 +311,7 @@ bool model_read_blocks(struct model_source *source, hid_t file)
     struct blocks *blocks = scene_array(source->builder, 1, sizeof *blocks);
     if (blocks == NULL) return false;
     source->si = true;
+    source->none = -1e19;
     source->model->sea = source->model->sea || source->below_sea;
     blocks->source = source;
     blocks->group[0] = H5Gopen2(file, "blocks", H5P_DEFAULT);

@@ -122,10 +122,16 @@ static const char *fault_of(const struct model_source *source, double density, d
     return NULL;
 }
 
-static bool check_grid(const struct model_source *source, size_t number, struct material *fastest,
-                       struct material *slowest)
+struct checked {
+    const struct model_source *source;
+    struct material fastest, slowest;
+};
+
+static bool check_box(void *context, const struct model_grid *grid, size_t first_column)
 {
-    const struct model_grid *grid = &source->model->grid[number];
+    (void)first_column;
+    struct checked *checked = context;
+    const struct model_source *source = checked->source;
     for (size_t i = 0; i < grid->n[0] * grid->n[1] * grid->n[2]; i++) {
         const double value[] = {grid->value[0][i], grid->value[1][i], grid->value[2][i]};
         const char *fault = fault_of(source, value[0], value[1], value[2]);
@@ -138,10 +144,21 @@ static bool check_grid(const struct model_source *source, size_t number, struct 
                 grid->at[0][at[0]], grid->at[1][at[1]], grid->at[2][at[2]],
                 source->model->depth == MODEL_BETWEEN ? " (depth in parts of its grid)" : "", value[0],
                 value[1], value[2], fault);
-        if (value[1] > fastest->p_speed) *fastest = ground_model_material(source->model, grid, i);
-        if (value[2] < slowest->s_speed) *slowest = ground_model_material(source->model, grid, i);
+        if (value[1] > checked->fastest.p_speed)
+            checked->fastest = ground_model_material(source->model, grid, i);
+        if (value[2] < checked->slowest.s_speed)
+            checked->slowest = ground_model_material(source->model, grid, i);
     }
     return true;
+}
+
+/* Q that is none and air; grids in pieces are mended whenever they are read. */
+static bool mend_values(struct model_source *source)
+{
+    const struct ground_model *model = source->model;
+    for (size_t i = 0; i < model->grids && model->damped; i++)
+        if (model->grid[i].pieces == NULL) model_no_quality(&model->grid[i]);
+    return model_fill(source);
 }
 
 /* A deck in km beside a model in m/s makes a thousand times as many as are meant: some tens at the most. */
@@ -151,10 +168,14 @@ enum { MOST_CROSSINGS = 300 };
 static bool check_values(struct model_source *source)
 {
     struct scene *scene = source->builder->scene;
-    struct material fastest = {.p_speed = 0}, slowest = {.s_speed = INFINITY};
+    struct checked checked = {source, {.p_speed = 0}, {.s_speed = INFINITY}};
     if (!model_quality(source)) return false;
-    for (size_t i = 0; i < source->model->grids; i++)
-        if (!check_grid(source, i, &fastest, &slowest)) return false;
+    for (size_t i = 0; i < source->model->grids; i++) {
+        bool unread = false;
+        if (!model_walk(&source->model->grid[i], check_box, &checked, &unread))
+            return unread ? model_unread(source) : false;
+    }
+    struct material fastest = checked.fastest, slowest = checked.slowest;
     scene->body.material = scene->materials;
     snprintf(fastest.name, sizeof fastest.name, "the model's fastest value");
     snprintf(slowest.name, sizeof slowest.name, "the model's slowest value");
@@ -269,14 +290,16 @@ void build_model(struct builder *builder)
     struct ground_model *model = scene_array(builder, 1, sizeof *model);
     char *path = deck_path(builder, deck_text(group, "file", 0));
     scene->body.model = model;
-    struct model_source source = {.builder = builder, .group = group, .path = path, .model = model};
+    struct model_source source = {
+        .builder = builder, .group = group, .path = path, .model = model, .none = NAN};
     if (model != NULL && path != NULL && builder->body_known) {
         model->sea = strcmp(deck_text(group, "depth", 0), "sea") == 0;
         source.below_sea = deck_count(builder->deck, "topography") > 0;
         memcpy(model->low, scene->body.low, sizeof model->low);
         memcpy(model->high, scene->body.high, sizeof model->high);
         source.range[2][1] = model->high[2] - model->low[2];
-        if ((stored_is_hdf5(path) ? read_hdf5(&source) : read_other(&source)) && check_values(&source)) {
+        if ((stored_is_hdf5(path) ? read_hdf5(&source) : read_other(&source)) && mend_values(&source) &&
+            check_values(&source)) {
             find_detail(model);
             tell_filled(&source);
         }

@@ -7,6 +7,7 @@
 
 #include "scene/build.h"
 #include "scene/ground.h"
+#include "scene/model_pieces.h"
 
 #include <hdf5.h>
 #include <stdio.h>
@@ -20,7 +21,10 @@ struct model_source {
     double range[3][2]; /* what the body needs along the model's own axes (model_place(), the reader) */
     bool si;            /* speeds in m/s and densities in kg/m^3, by the format */
     bool below_sea;     /* formats that know their ground: read it with depth = 'sea' */
+    double none;        /* s_speed of air and water is at most that; NAN: there is none (the reader) */
     size_t filled;      /* values of air or water that took those of the rock below */
+    bool plainly;       /* the format is read in one go: all grids are kept whole */
+    double kept;        /* bytes of values that are kept whole */
     double whole[3][2]; /* first and last place in the file along each axis of the last grid */
     double end;         /* model_meets() */
 };
@@ -48,7 +52,9 @@ bool model_meets(struct model_source *source, size_t i);
 
 /* Says whether the file has q_p and q_s (model_quality.c): how many sets of values are to be read of each grid. */
 int model_sets(struct model_source *source, bool damped);
-/* Brings Q below or without 0, which is none, to 0 in all grids; false after complaining. */
+/* Brings Q that is none to 0 in a grid, or a box of one, that has Q. */
+void model_no_quality(const struct model_grid *box);
+/* Looks at Q of all grids; false after complaining. */
 bool model_quality(struct model_source *source);
 
 /* Adds `count` grids or surfaces; false after complaining. */
@@ -59,11 +65,14 @@ bool model_part(struct model_source *source, struct model_grid *grid, int axis, 
                 size_t count, size_t *first);
 bool model_even_part(struct model_source *source, struct model_grid *grid, int axis, double from, double step,
                      size_t count, size_t *first);
-/* Room for the values when the places are known: those of the first `sets` that have none. */
+/* Room for the values when the places are known: those of the first `sets` that have none. Values of large grids get none:
+ * they are read in pieces. */
 bool model_room(struct model_source *source, struct model_grid *grid, int sets);
-/* In every column from the top values of air and water, whose s_speed is at most `none`, become those of the
- * first rock below, also in the grid below. */
-void model_fill(struct model_source *source, double none);
+/* In every column from the top values of air and water become those of the first rock below, also in the grid below;
+ * false after complaining. */
+bool model_fill(struct model_source *source);
+/* Complains of values that cannot be read; false. */
+bool model_unread(const struct model_source *source);
 /* Ends the model's text with where depth 0 is: an elevation, or `ground`. */
 void model_tell_depth(struct ground_model *model, const char *ground);
 /* Least and greatest value of a surface. */
@@ -77,10 +86,18 @@ bool model_numbers(hid_t place, const char *name, size_t count, double *value);
 bool model_word(hid_t place, const char *name, size_t i, char *text, size_t size);
 /* Extent of a data set of at most 4 axes; 0 if it has more. */
 int model_extent(hid_t set, size_t extent[4]);
-/* Reads part of a data set: n values from `first` on along each of the first three axes (of surfaces two),
- * `component` along the next one. */
-bool model_read_part(hid_t set, const struct model_grid *grid, const size_t first[3], size_t component,
+/* Reads part of a data set: n values from `first` on along each of the first axes, `component` along the next one. */
+bool model_read_part(hid_t set, int axes, const size_t n[3], const size_t first[3], size_t component,
                      double *value);
+/* Takes values of set `set` of a grid of `sets` from part of a data set, times a factor: reads them, or keeps the data
+ * set for reading them in pieces. */
+struct model_column {
+    hid_t set;
+    size_t component;
+    double factor;
+};
+bool model_take(struct model_grid *grid, int sets, int set, const struct model_column *column,
+                const size_t first[3]);
 
 /* The formats: each reads all that the model is but its frame. False after complaining. */
 bool model_read_plain(struct model_source *source, hid_t file);

@@ -24,24 +24,47 @@ static size_t before(const double *at, size_t n, double x, double *part)
     return i;
 }
 
+/* The values at a corner of a cell: of set s value[s * *stride]; `first` is the piece of the first corner. */
+static const double *corner_of(const struct model_grid *grid, const size_t at[3], const size_t up[3],
+                               const struct model_piece *first, size_t *stride)
+{
+    *stride = first->step[3];
+    if (up[0] <= first->left[0] && up[1] <= first->left[1] && up[2] <= first->left[2])
+        return first->value + up[0] * first->step[0] + up[1] * first->step[1] + up[2];
+    const size_t there[3] = {at[0] + up[0], at[1] + up[1], at[2] + up[2]};
+    const struct model_piece other = model_pieces_at(grid, there);
+    *stride = other.step[3];
+    return other.value;
+}
+
 void model_grid_at(const struct model_grid *grid, const double place[3], int sets, double *value)
 {
     size_t at[3];
     double part[3];
+    struct model_piece piece = {.value = NULL};
     for (int axis = 0; axis < 3; axis++)
         at[axis] = before(grid->at[axis], grid->n[axis], place[axis], &part[axis]);
     for (int set = 0; set < sets; set++)
         value[set] = 0;
+    if (grid->pieces != NULL) piece = model_pieces_at(grid, at);
     for (unsigned corner = 0; corner < 8; corner++) {
-        size_t index = 0;
+        size_t index = 0, up[3], stride;
         double weight = 1;
         for (int axis = 0; axis < 3; axis++) {
-            const unsigned up = corner >> axis & 1U;
-            index = index * grid->n[axis] + at[axis] + (grid->n[axis] > 1 ? up : 0);
-            weight *= up ? part[axis] : 1 - part[axis];
+            const unsigned end = corner >> axis & 1U;
+            up[axis] = grid->n[axis] > 1 ? end : 0;
+            index = index * grid->n[axis] + at[axis] + up[axis];
+            weight *= end ? part[axis] : 1 - part[axis];
         }
-        for (int set = 0; set < sets && weight != 0; set++)
-            value[set] += weight * grid->value[set][index];
+        if (weight == 0) continue;
+        if (grid->pieces != NULL) {
+            const double *found = corner_of(grid, at, up, &piece, &stride);
+            for (int set = 0; set < sets; set++)
+                value[set] += weight * found[(size_t)set * stride];
+        } else {
+            for (int set = 0; set < sets; set++)
+                value[set] += weight * grid->value[set][index];
+        }
     }
 }
 
@@ -195,6 +218,7 @@ static void free_grids(struct model_grid *grid, size_t count)
             array_free(grid[i].at[axis]);
         for (int set = 0; set < MODEL_SETS; set++)
             array_free(grid[i].value[set]);
+        model_pieces_free(&grid[i]);
     }
     array_free(grid);
 }
@@ -207,126 +231,18 @@ void ground_model_free(struct ground_model *model)
     array_free(model);
 }
 
-/* --- While it is read --- */
+/* --- What is kept of large grids --- */
 
-bool model_grids(struct model_source *source, size_t grids, size_t surfaces)
+void ground_model_forget(const struct ground_model *model)
 {
-    struct ground_model *model = source->model;
-    model->grid = scene_array(source->builder, grids, sizeof *model->grid);
-    model->surface = scene_array(source->builder, surfaces, sizeof *model->surface);
-    if (model->grid == NULL || model->surface == NULL) return false;
-    model->grids = grids;
-    model->surfaces = surfaces;
-    return true;
+    for (size_t i = 0; model != NULL && i < model->grids; i++)
+        model_pieces_forget(&model->grid[i]);
 }
 
-bool model_part(struct model_source *source, struct model_grid *grid, int axis, const double *place,
-                size_t count, size_t *first)
+bool ground_model_sound(const struct ground_model *model)
 {
-    if (count < 2)
-        return model_fault(source, "there is one value along %c; expected at least two", "xyz"[axis]);
-    size_t last = count - 1;
-    for (size_t i = 0; i < last; i++)
-        if (!(place[i + 1] > place[i]))
-            return model_fault(source,
-                               "rows %zu and %zu along %c coincide or go back, from %g to %g; expected "
-                               "places one after the other",
-                               i, i + 1, "xyz"[axis], place[i], place[i + 1]);
-    source->whole[axis][0] = place[0];
-    source->whole[axis][1] = place[last];
-    const bool above = axis == 2 && source->model->sea; /* all that is above the body, too */
-    *first = 0;
-    while (*first + 2 < count && !above && place[*first + 1] <= source->range[axis][0])
-        ++*first;
-    while (last > *first + 1 && place[last - 1] >= source->range[axis][1])
-        last--;
-    grid->n[axis] = last - *first + 1;
-    grid->at[axis] = scene_array(source->builder, grid->n[axis], sizeof *grid->at[axis]);
-    for (size_t i = 0; grid->at[axis] != NULL && i < grid->n[axis]; i++)
-        grid->at[axis][i] = place[*first + i];
-    return grid->at[axis] != NULL;
-}
-
-bool model_even_part(struct model_source *source, struct model_grid *grid, int axis, double from, double step,
-                     size_t count, size_t *first)
-{
-    if (!(step > 0) || !isfinite(from + step * (double)count))
-        return model_fault(source, "the step along %c is %g; expected one above 0", "xyz"[axis], step);
-    double *place = scene_array(source->builder, count, sizeof *place);
-    for (size_t i = 0; place != NULL && i < count; i++)
-        place[i] = from + (double)i * step;
-    const bool good = place != NULL && model_part(source, grid, axis, place, count, first);
-    array_free(place);
-    return good;
-}
-
-bool model_room(struct model_source *source, struct model_grid *grid, int sets)
-{
-    if (grid->n[2] == 0) { /* a surface */
-        grid->n[2] = 1;
-        grid->at[2] = scene_array(source->builder, 1, sizeof *grid->at[2]);
-    }
-    const double count = (double)grid->n[0] * (double)grid->n[1] * (double)grid->n[2];
-    for (int set = 0; set < sets; set++) {
-        if (grid->value[set] != NULL) continue;
-        grid->value[set] = count < 1e15 ? array_new((size_t)count, sizeof(double)) : NULL;
-        if (grid->value[set] != NULL) continue;
-        complain_of_memory(source->builder);
-        return model_fault(source, "no memory for the %zu x %zu x %zu values that the body needs", grid->n[0],
-                           grid->n[1], grid->n[2]);
-    }
-    return grid->at[2] != NULL;
-}
-
-void model_extremes(const struct model_grid *surface, double *least, double *greatest)
-{
-    *least = INFINITY;
-    *greatest = -INFINITY;
-    for (size_t i = 0; i < surface->n[0] * surface->n[1]; i++) {
-        *least = fmin(*least, surface->value[0][i]);
-        *greatest = fmax(*greatest, surface->value[0][i]);
-    }
-}
-
-void model_tell_depth(struct ground_model *model, const char *ground)
-{
-    const size_t length = strlen(model->text), room = sizeof model->text - length;
-    if (model->sea)
-        snprintf(model->text + length, room, "its elevation %g", 0 - model->shift);
-    else
-        snprintf(model->text + length, room, "%s", ground);
-}
-
-/* Rock for a column of grid i that has none: at the top of the grid below. */
-static bool rock_below(const struct ground_model *model, size_t i, size_t column, int sets,
-                       double value[MODEL_SETS])
-{
-    const struct model_grid *grid = &model->grid[i];
-    if (i + 1 == model->grids) return false;
-    const double place[3] = {grid->at[0][column / grid->n[1]], grid->at[1][column % grid->n[1]], -INFINITY};
-    model_grid_at(&model->grid[i + 1], place, sets, value);
-    return true;
-}
-
-void model_fill(struct model_source *source, double none)
-{
-    struct ground_model *model = source->model;
-    const int sets = model->damped ? MODEL_SETS : MODEL_VALUES;
-    for (size_t i = model->grids; i-- > 0;) {
-        const struct model_grid *grid = &model->grid[i];
-        for (size_t column = 0; column < grid->n[0] * grid->n[1]; column++) {
-            const size_t top = column * grid->n[2];
-            double value[MODEL_SETS];
-            size_t rock = 0;
-            while (rock < grid->n[2] && grid->value[MODEL_VALUES - 1][top + rock] <= none)
-                rock++;
-            if (rock == 0 || (rock == grid->n[2] && !rock_below(model, i, column, sets, value))) continue;
-            for (int set = 0; set < sets; set++) {
-                if (rock < grid->n[2]) value[set] = grid->value[set][top + rock];
-                for (size_t k = 0; k < rock; k++)
-                    grid->value[set][top + k] = value[set];
-            }
-            source->filled += rock;
-        }
-    }
+    bool broken = false;
+    for (size_t i = 0; model != NULL && i < model->grids; i++)
+        broken = broken || model_pieces_broken(&model->grid[i]);
+    return !broken;
 }

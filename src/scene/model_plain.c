@@ -33,7 +33,8 @@ static bool read_set(struct model_source *source, hid_t file, int which, int set
                model_covers(source, axis, origin[axis],
                             origin[axis] + spacing[axis] * (double)(extent[axis] - 1));
     if (good && which == 0) good = model_room(source, grid, sets);
-    if (good && !model_read_part(set, grid, first, 0, grid->value[which]))
+    const struct model_column column = {set, 0, 1};
+    if (good && !model_take(grid, sets, which, &column, first))
         good = not_plain(source, "a data set cannot be read");
     if (set >= 0) H5Dclose(set);
     return good;

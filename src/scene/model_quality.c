@@ -36,32 +36,53 @@ static bool passive(const struct model_source *source, const struct model_grid *
                        q_p, q_s, place[0], place[1], place[2], most);
 }
 
+void model_no_quality(const struct model_grid *box)
+{
+    double *const q[2] = {box->value[MODEL_VALUES], box->value[MODEL_VALUES + 1]};
+    for (size_t i = 0; i < box->n[0] * box->n[1] * box->n[2]; i++)
+        if (!(q[0][i] > 0 && q[1][i] > 0 && isfinite(q[0][i]) && isfinite(q[1][i]))) q[0][i] = q[1][i] = 0;
+}
+
+struct looked {
+    const struct model_source *source;
+    size_t values;
+    double place[3]; /* of the first value without Q */
+};
+
+static bool look(void *context, const struct model_grid *box, size_t first_column)
+{
+    (void)first_column;
+    struct looked *looked = context;
+    struct ground_model *model = looked->source->model;
+    double *const q[2] = {box->value[MODEL_VALUES], box->value[MODEL_VALUES + 1]};
+    for (size_t i = 0; i < box->n[0] * box->n[1] * box->n[2]; i++, looked->values++) {
+        if (q[0][i] > 0) {
+            if (!passive(looked->source, box, i)) return false;
+            model->loss[0] = fmin(model->loss[0], fmin(1 / q[0][i], 1 / q[1][i]));
+            model->loss[1] = fmax(model->loss[1], fmax(1 / q[0][i], 1 / q[1][i]));
+            continue;
+        }
+        if (model->undamped++ == 0) place_of(box, i, looked->place);
+    }
+    return true;
+}
+
 bool model_quality(struct model_source *source)
 {
     struct ground_model *model = source->model;
-    double place[3] = {0};
-    size_t values = 0;
+    struct looked looked = {.source = source};
     if (!model->damped) return true;
     model->loss[0] = INFINITY;
     for (size_t g = 0; g < model->grids; g++) {
-        const struct model_grid *grid = &model->grid[g];
-        double *const q[2] = {grid->value[MODEL_VALUES], grid->value[MODEL_VALUES + 1]};
-        for (size_t i = 0; i < grid->n[0] * grid->n[1] * grid->n[2]; i++, values++) {
-            if (q[0][i] > 0 && q[1][i] > 0 && isfinite(q[0][i]) && isfinite(q[1][i])) {
-                if (!passive(source, grid, i)) return false;
-                model->loss[0] = fmin(model->loss[0], fmin(1 / q[0][i], 1 / q[1][i]));
-                model->loss[1] = fmax(model->loss[1], fmax(1 / q[0][i], 1 / q[1][i]));
-                continue;
-            }
-            if (model->undamped++ == 0) place_of(grid, i, place);
-            q[0][i] = q[1][i] = 0;
-        }
+        bool unread = false;
+        if (!model_walk(&model->grid[g], look, &looked, &unread))
+            return unread ? model_unread(source) : false;
     }
     if (model->undamped > 0)
         warn(source->builder->messages,
              "'%s': %zu of %zu values have no q_p or q_s above 0, the first one at (%.9g, %.9g, %.9g) of the "
              "model's own axes; the ground is not damped there",
-             source->path, model->undamped, values, place[0], place[1], place[2]);
-    if (model->undamped == values) model->damped = false;
+             source->path, model->undamped, looked.values, looked.place[0], looked.place[1], looked.place[2]);
+    if (model->undamped == looked.values) model->damped = false;
     return true;
 }

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "scene/model_file.h"
 
+#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -30,7 +31,17 @@ struct rfile {
     int sets;    /* are read */
     size_t blocks;
     struct block block[MOST_BLOCKS];
+};
+
+/* Where the values of a block lie that are read. */
+struct rows {
+    FILE *file;
+    bool swapped;
+    size_t bytes;      /* of a number */
     unsigned char *row; /* of a column's numbers */
+    struct block block;
+    size_t first[3];
+    int sets;
 };
 
 static void swap(void *number, size_t bytes)
@@ -118,33 +129,73 @@ static bool read_block_heads(struct rfile *rfile)
 }
 
 /* One of a row's numbers. */
-static double number_at(const struct rfile *rfile, size_t i)
+static double number_at(const struct rows *rows, size_t i)
 {
     double number;
     float single;
     unsigned char byte[8];
-    memcpy(byte, rfile->row + i * rfile->bytes, rfile->bytes);
-    if (rfile->swapped) swap(byte, rfile->bytes);
+    memcpy(byte, rows->row + i * rows->bytes, rows->bytes);
+    if (rows->swapped) swap(byte, rows->bytes);
     memcpy(&number, byte, sizeof number);
     memcpy(&single, byte, sizeof single);
-    return rfile->bytes == 4 ? (double)single : number;
+    return rows->bytes == 4 ? (double)single : number;
 }
 
-static bool read_column(struct rfile *rfile, const struct block *block, struct model_grid *grid,
-                        const size_t first[3], size_t i, size_t j)
+static bool read_column(const struct rows *rows, const struct model_grid *box, const size_t first[3], size_t i,
+                        size_t j)
 {
-    const size_t components = (size_t)block->components, count = grid->n[2] * components;
+    const struct block *block = &rows->block;
+    const size_t components = (size_t)block->components, count = box->n[2] * components;
     const size_t at = (((first[0] + i) * block->n[1] + first[1] + j) * block->n[2] + first[2]) * components;
-    const int sets = block->components == 1 ? 1 : rfile->sets;
-    if (fseeko(rfile->file, block->from + (off_t)(at * rfile->bytes), SEEK_SET) != 0 ||
-        fread(rfile->row, rfile->bytes, count, rfile->file) != count)
-        return model_fault(rfile->source, "cannot read values [%zu, %zu] of a block", first[0] + i,
-                           first[1] + j);
-    for (size_t k = 0; k < grid->n[2]; k++)
-        for (int set = 0; set < sets; set++)
-            grid->value[set][(i * grid->n[1] + j) * grid->n[2] + k] =
-                number_at(rfile, k * components + (size_t)set);
+    if (fseeko(rows->file, block->from + (off_t)(at * rows->bytes), SEEK_SET) != 0 ||
+        fread(rows->row, rows->bytes, count, rows->file) != count)
+        return false;
+    for (size_t k = 0; k < box->n[2]; k++)
+        for (int set = 0; set < rows->sets; set++)
+            box->value[set][(i * box->n[1] + j) * box->n[2] + k] =
+                number_at(rows, k * components + (size_t)set);
     return true;
+}
+
+static bool read_rows(void *context, const struct model_grid *box, const size_t from[3])
+{
+    struct rows *rows = context;
+    size_t first[3];
+    bool good = true;
+    for (int axis = 0; axis < 3; axis++)
+        first[axis] = rows->first[axis] + from[axis];
+    for (size_t i = 0; i < box->n[0] && good; i++)
+        for (size_t j = 0; j < box->n[1] && good; j++)
+            good = read_column(rows, box, first, i, j);
+    if (good && rows->sets == MODEL_SETS) model_no_quality(box);
+    return good;
+}
+
+static void close_rows(void *context)
+{
+    struct rows *rows = context;
+    if (rows == NULL) return;
+    if (rows->file != NULL) fclose(rows->file);
+    array_free(rows->row);
+    array_free(rows);
+}
+
+static struct rows *open_rows(const struct rfile *rfile, const struct block *block, const size_t first[3],
+                              size_t column)
+{
+    struct rows *rows = scene_array(rfile->source->builder, 1, sizeof *rows);
+    if (rows == NULL) return NULL;
+    rows->swapped = rfile->swapped;
+    rows->bytes = rfile->bytes;
+    rows->block = *block;
+    rows->sets = block->components == 1 ? 1 : rfile->sets;
+    memcpy(rows->first, first, sizeof rows->first);
+    rows->row = scene_array(rfile->source->builder, column * (size_t)block->components, rfile->bytes);
+    rows->file = fopen(rfile->source->path, "rb");
+    if (rows->file != NULL && rows->row != NULL) return rows;
+    if (rows->file == NULL) model_fault(rfile->source, "cannot read it: %s", strerror(errno));
+    close_rows(rows);
+    return NULL;
 }
 
 static bool read_block(struct rfile *rfile, const struct block *block, struct model_grid *grid)
@@ -159,13 +210,18 @@ static bool read_block(struct rfile *rfile, const struct block *block, struct mo
     if (solid && !model_even_part(source, grid, 2, block->top, block->step[1], block->n[2], &first[2]))
         return false;
     if (!model_room(source, grid, solid ? rfile->sets : 1)) return false;
-    rfile->row = scene_array(source->builder, grid->n[2] * (size_t)block->components, rfile->bytes);
-    bool good = rfile->row != NULL;
-    for (size_t i = 0; i < grid->n[0] && good; i++)
-        for (size_t j = 0; j < grid->n[1] && good; j++)
-            good = read_column(rfile, block, grid, first, i, j);
-    array_free(rfile->row);
-    return good;
+    struct rows *rows = open_rows(rfile, block, first, grid->n[2]);
+    if (rows == NULL) return false;
+    const struct model_origin origin = {read_rows, close_rows, rows, rows->sets, NULL};
+    if (grid->value[0] == NULL) {
+        if (model_pieces_new(grid, &origin)) return true;
+        complain_of_memory(source->builder);
+        close_rows(rows);
+        return false;
+    }
+    const bool good = read_rows(rows, grid, (const size_t[3]){0});
+    close_rows(rows);
+    return good || model_unread(source);
 }
 
 static bool read_surface(struct rfile *rfile)
@@ -199,6 +255,7 @@ bool model_read_rfile(struct model_source *source, FILE *file)
     struct rfile rfile = {.source = source, .file = file};
     const selas_status before = source->builder->status;
     source->si = true;
+    source->none = -999;
     source->model->sea = source->model->sea || source->below_sea;
     if (!read_head(&rfile) || !read_block_heads(&rfile)) {
         if (source->builder->status != before) return false;
@@ -211,6 +268,5 @@ bool model_read_rfile(struct model_source *source, FILE *file)
     for (size_t b = 1; b < rfile.blocks; b++)
         if (!read_block(&rfile, &rfile.block[b], &source->model->grid[b - 1]) || !model_meets(source, b - 1))
             return false;
-    model_fill(source, -999);
     return true;
 }

@@ -1,4 +1,6 @@
 /* What formats of models in HDF5 share: attributes and parts of data sets. */
+#include "base/hdf_quiet.h"
+#include "base/memory.h"
 #include "base/stored.h"
 #include "scene/model_file.h"
 
@@ -65,16 +67,16 @@ int model_extent(hid_t set, size_t extent[4])
     return right ? rank : 0;
 }
 
-bool model_read_part(hid_t set, const struct model_grid *grid, const size_t first[3], size_t component,
+bool model_read_part(hid_t set, int axes, const size_t n[3], const size_t first[3], size_t component,
                      double *value)
 {
     const hid_t space = H5Dget_space(set);
-    const int rank = H5Sget_simple_extent_ndims(space), axes = grid->n[2] == 1 ? 2 : 3;
+    const int rank = H5Sget_simple_extent_ndims(space);
     hsize_t start[4] = {0}, count[4] = {1, 1, 1, 1};
     bool right = rank == axes || rank == axes + 1;
     for (int axis = 0; axis < axes; axis++) {
         start[axis] = first[axis];
-        count[axis] = grid->n[axis];
+        count[axis] = n[axis];
     }
     start[axes] = rank == axes ? 0 : component;
     const hid_t memory = H5Screate_simple(rank, count, NULL);
@@ -83,4 +85,69 @@ bool model_read_part(hid_t set, const struct model_grid *grid, const size_t firs
     H5Sclose(memory);
     H5Sclose(space);
     return right;
+}
+
+/* --- Values of grids --- */
+
+static bool read_column(const struct model_column *column, const size_t n[3], const size_t first[3],
+                        double *value)
+{
+    if (!model_read_part(column->set, 3, n, first, column->component, value)) return false;
+    for (size_t k = 0; k < n[0] * n[1] * n[2] && column->factor != 1; k++)
+        if (value[k] > -1e19) value[k] *= column->factor; /* else no data */
+    return true;
+}
+
+/* Context of pieces of a grid: where its values lie. */
+struct columns {
+    size_t first[3];
+    int sets;
+    struct model_column of[MODEL_SETS];
+};
+
+static void close_columns(void *context)
+{
+    struct columns *columns = context;
+#pragma omp critical(selas_hdf5)
+    for (int set = 0; set < columns->sets; set++)
+        if (columns->of[set].set > 0) H5Dclose(columns->of[set].set);
+    array_free(columns);
+}
+
+static bool read_columns(void *context, const struct model_grid *box, const size_t first[3])
+{
+    const struct columns *columns = context;
+    size_t start[3];
+    bool good = true;
+    for (int axis = 0; axis < 3; axis++)
+        start[axis] = columns->first[axis] + first[axis];
+#pragma omp critical(selas_hdf5)
+    {
+        const struct quiet quiet = quiet_begin();
+        for (int set = 0; set < columns->sets && good; set++)
+            good = read_column(&columns->of[set], box->n, start, box->value[set]);
+        quiet_end(quiet);
+    }
+    if (columns->sets == MODEL_SETS) model_no_quality(box);
+    return good;
+}
+
+bool model_take(struct model_grid *grid, int sets, int set, const struct model_column *column,
+                const size_t first[3])
+{
+    if (grid->value[set] != NULL) return read_column(column, grid->n, first, grid->value[set]);
+    if (set == 0) {
+        struct columns *columns = array_new(1, sizeof *columns);
+        if (columns == NULL) return false;
+        memcpy(columns->first, first, sizeof columns->first);
+        columns->sets = sets;
+        const struct model_origin origin = {read_columns, close_columns, columns, sets, NULL};
+        if (!model_pieces_new(grid, &origin)) {
+            array_free(columns);
+            return false;
+        }
+    }
+    struct columns *columns = model_pieces_context(grid);
+    columns->of[set] = *column;
+    return H5Iinc_ref(column->set) > 0;
 }

@@ -63,9 +63,12 @@ static bool read_values(struct model_source *source, hid_t group, const char *na
             first[axis] = (size_t)lround(grid->at[axis][0] / step);
         good = good && fabs(grid->at[axis][1] - grid->at[axis][0] - step) < 1e-6 * step;
     }
-    if (good && set == 0)
-        good = model_room(source, grid, surface ? 1 : model->damped ? MODEL_SETS : MODEL_VALUES);
-    good = good && model_read_part(data, grid, first, 0, grid->value[set]);
+    const int sets = surface ? 1 : model->damped ? MODEL_SETS : MODEL_VALUES;
+    const struct model_column column = {data, 0, 1};
+    if (good && set == 0) good = model_room(source, grid, sets);
+    if (good)
+        good = surface ? model_read_part(data, 2, grid->n, first, 0, grid->value[0])
+                       : model_take(grid, sets, set, &column, first);
     if (data >= 0) H5Dclose(data);
     return good;
 }
@@ -171,6 +174,7 @@ bool model_read_sfile(struct model_source *source, hid_t file)
     struct ground_model *model = source->model;
     double place[3], grids = 0, damped = 0, top, least, end, deepest;
     source->si = true;
+    source->none = -999;
     source->model->sea = source->model->sea || source->below_sea;
     if (!model_numbers(file, "Origin longitude, latitude, azimuth", 3, place) ||
         !model_numbers(file, "ngrids", 1, &grids) || !(grids >= 1) || grids > MOST_GRIDS)
@@ -198,6 +202,5 @@ bool model_read_sfile(struct model_source *source, hid_t file)
              model->grids, place[2], -top, -least, end);
     model_tell_depth(model, "its ground, depths are stretched above its bottom");
     if (!read_grids(source, file, lay)) return false;
-    model_fill(source, -999);
     return true;
 }

@@ -177,7 +177,7 @@ bool model_read_text(struct model_source *source, FILE *file)
 {
     struct text text = {.source = source, .file = file};
     double more[COLUMNS];
-    source->si = true;
+    source->si = source->plainly = true;
     source->model->sea = source->model->sea || source->below_sea;
     if (!read_head(&text) || !lay_grid(&text)) return false;
     for (size_t at[3] = {0}; at[2] < text.n[2]; at[2]++)

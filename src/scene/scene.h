@@ -54,10 +54,12 @@ struct ground_block {
  * the axes of a model's file, z fastest; a surface has the first alone, and one place along z. A part of damped ground
  * has its shares of the bulk and shear modulus in the place of Q (method/damped/field.c). */
 enum { MODEL_VALUES = 3, MODEL_SETS = 5 };
+struct model_pieces; /* model_pieces.h */
 struct model_grid {
     size_t n[3];
     double *at[3]; /* [n] rising */
     double *value[MODEL_SETS];
+    struct model_pieces *pieces; /* of a grid that is not kept whole, in the place of values; NULL */
 };
 
 /* How the third coordinate of a place in a grid, downward, comes from the depth below the body's z- face and the

@@ -274,6 +274,7 @@ selas_status damped_or_plain(const struct method *method, const struct scene *sc
     for (size_t p = 0; p < d->parts && status == SELAS_OK; p++) {
         status = method->create(&d->part[p].scene, &d->part[p].model, messages);
         if (status == SELAS_OK) d->part[p].model->whole = d->part[0].model;
+        if (d->field != NULL) ground_model_forget(&d->field[p]);
     }
     if (status == SELAS_OK) status = fill(d, scene, messages);
     if (status == SELAS_OK)

@@ -29,6 +29,7 @@ struct damped {
     struct damped_part part[1 + MOST_MECHANISMS];
     struct ground_model
         *field;        /* [parts] of a model: with unrelaxed speeds and the part's shares; NULL: none */
+    struct fitting *fitting; /* field.c: what that is made with */
     double *effective; /* [2 * unknowns]: e_p, and what else stands behind u in a state */
     double *sum;       /* [unknowns]: accelerations of one part; NULL: there is only part 0 */
 };

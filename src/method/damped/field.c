@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "damping/directions.h"
 #include "scene/ground.h"
+#include "scene/model_pieces.h"
 
 #include <math.h>
 #include <string.h>
@@ -15,6 +16,7 @@ enum { AXIAL, SHEAR, BULK };
 
 struct fitting {
     const struct damped *d;
+    const struct ground_model *given;
     struct damping_curve curve;
     double inside[MOST_MECHANISMS]; /* a column of the space whose weights are all positive or 0 */
     struct modulus modulus;         /* of size 1, for its rates */
@@ -128,24 +130,59 @@ static double share_of(const struct damped *d, size_t p, const double weight[MOS
     return dot(d->damping->mechanisms, off, d->part[p].memory);
 }
 
-static bool lay_grid(const struct fitting *fitting, const struct ground_model *given, size_t number,
-                     struct ground_model *const made)
+/* Fits the values of a box of the given model; `made` (NULL: none is kept) are the parts' ones, which begin at the same
+ * values. */
+static bool fit_box(const struct fitting *fitting, const struct model_grid *box,
+                    const struct model_grid *const *made)
 {
     const struct damped *d = fitting->d;
-    const struct model_grid *grid = &given->grid[number];
     bool good = true;
-    for (size_t i = 0; i < grid->n[0] * grid->n[1] * grid->n[2] && good; i++) {
-        const struct material value = ground_model_material(given, grid, i);
+    for (size_t i = 0; i < box->n[0] * box->n[1] * box->n[2] && good; i++) {
+        const struct material value = ground_model_material(fitting->given, box, i);
         double size[3], weight[3][MOST_MECHANISMS];
         good = fit_value(fitting, &value, size, weight);
-        made[0].grid[number].value[1][i] = sqrt(size[AXIAL] / value.density);
-        made[0].grid[number].value[2][i] = sqrt(size[SHEAR] / value.density);
-        for (size_t p = 1; p < d->parts; p++) {
-            made[p].grid[number].value[MODEL_VALUES][i] = share_of(d, p, weight[BULK]);
-            made[p].grid[number].value[MODEL_VALUES + 1][i] = share_of(d, p, weight[SHEAR]);
+        for (size_t p = 0; p < d->parts && made != NULL; p++) {
+            if (made[p] == NULL) continue;
+            made[p]->value[1][i] = sqrt(size[AXIAL] / value.density);
+            made[p]->value[2][i] = sqrt(size[SHEAR] / value.density);
+            if (p == 0) continue;
+            made[p]->value[MODEL_VALUES][i] = share_of(d, p, weight[BULK]);
+            made[p]->value[MODEL_VALUES + 1][i] = share_of(d, p, weight[SHEAR]);
         }
     }
     return good;
+}
+
+/* A grid while it is fitted. */
+struct laying {
+    const struct fitting *fitting;
+    size_t number;
+};
+
+static bool lay_box(void *context, const struct model_grid *box, size_t first_column)
+{
+    (void)first_column;
+    const struct laying *laying = context;
+    const struct damped *d = laying->fitting->d;
+    const struct model_grid *made[1 + MOST_MECHANISMS] = {NULL};
+    for (size_t p = 0; p < d->parts; p++)
+        made[p] = &d->field[p].grid[laying->number];
+    return fit_box(laying->fitting, box, made[0]->pieces == NULL ? made : NULL);
+}
+
+/* Context of pieces of a part's grid. */
+struct fitted {
+    const struct fitting *fitting;
+    size_t number, part;
+};
+
+static bool read_fitted(void *context, const struct model_grid *box, const size_t first[3])
+{
+    const struct fitted *fitted = context;
+    const struct model_grid *made[1 + MOST_MECHANISMS] = {NULL};
+    made[fitted->part] = box;
+    return model_pieces_read(&fitted->fitting->given->grid[fitted->number], box, first) &&
+           fit_box(fitted->fitting, box, made);
 }
 
 /* The space of all columns has those of the fits, so their mean too. */
@@ -179,18 +216,43 @@ static void refit_samples(const struct fitting *fitting, const struct scene *sce
     }
 }
 
-/* Own grids, with own numbers from set `from` to before `end`; all else is that of `other`. */
-static bool share_model(const struct ground_model *other, int from, int end, struct ground_model *made)
+/* Pieces of grid `number` of part p that are fitted when they are asked for. */
+static bool fit_later(const struct fitting *fitting, size_t number, size_t p, struct model_grid *grid)
 {
+    struct fitted *fitted = array_new(1, sizeof *fitted);
+    const struct model_origin origin = {read_fitted, array_free, fitted, MODEL_SETS, &fitting->given->grid[number]};
+    if (fitted != NULL) *fitted = (struct fitted){fitting, number, p};
+    if (fitted != NULL && model_pieces_new(grid, &origin)) return true;
+    array_free(fitted);
+    return false;
+}
+
+/* Sets of numbers that a part's grids have of their own. */
+static int first_own(size_t part)
+{
+    return part == 0 ? 1 : MODEL_VALUES;
+}
+
+static int end_own(size_t part)
+{
+    return part == 0 ? MODEL_VALUES : MODEL_SETS;
+}
+
+/* Own grids, with own numbers; all else is that of `other`. */
+static bool share_model(const struct fitting *fitting, const struct ground_model *other, size_t p)
+{
+    struct ground_model *made = &fitting->d->field[p];
     *made = *other;
     made->grid = array_new(other->grids, sizeof *made->grid);
     bool good = made->grid != NULL;
     for (size_t i = 0; i < other->grids && good; i++) {
-        const size_t *n = other->grid[i].n;
-        made->grid[i] = other->grid[i];
-        for (int set = from; set < end; set++) {
-            made->grid[i].value[set] = array_new(n[0] * n[1] * n[2], sizeof(double));
-            good = good && made->grid[i].value[set] != NULL;
+        struct model_grid *grid = &made->grid[i];
+        *grid = other->grid[i];
+        grid->pieces = NULL;
+        if (other->grid[i].pieces != NULL) good = fit_later(fitting, i, p, grid);
+        for (int set = first_own(p); set < end_own(p) && other->grid[i].pieces == NULL; set++) {
+            grid->value[set] = array_new(grid->n[0] * grid->n[1] * grid->n[2], sizeof(double));
+            good = good && grid->value[set] != NULL;
         }
     }
     return good;
@@ -200,12 +262,15 @@ void damped_field_free(struct damped *d)
 {
     for (size_t p = 0; d->field != NULL && p < d->parts; p++) {
         struct ground_model *made = &d->field[p];
-        for (size_t i = 0; made->grid != NULL && i < made->grids; i++)
-            for (int set = p == 0 ? 1 : MODEL_VALUES; set < (p == 0 ? MODEL_VALUES : MODEL_SETS); set++)
+        for (size_t i = 0; made->grid != NULL && i < made->grids; i++) {
+            for (int set = first_own(p); set < end_own(p) && made->grid[i].pieces == NULL; set++)
                 array_free(made->grid[i].value[set]);
+            model_pieces_free(&made->grid[i]);
+        }
         array_free(made->grid);
     }
     array_free(d->field);
+    array_free(d->fitting);
 }
 
 /* What the parts' ground is made with; the modulus has no weights yet. */
@@ -214,6 +279,7 @@ static struct fitting *fitting_new(const struct damped *d, const struct ground_m
     struct fitting *fitting = array_new(1, sizeof *fitting);
     if (fitting == NULL) return NULL;
     fitting->d = d;
+    fitting->given = given;
     fitting->modulus =
         (struct modulus){.size = 1, .mechanisms = d->damping->mechanisms, .by = d->damping->band.by};
     memcpy(fitting->modulus.rate, d->damping->rate, sizeof fitting->modulus.rate);
@@ -223,12 +289,13 @@ static struct fitting *fitting_new(const struct damped *d, const struct ground_m
     return fitting;
 }
 
-static bool field_new(struct damped *d, const struct ground_model *given)
+static bool field_new(struct damped *d)
 {
+    const struct ground_model *given = d->fitting->given;
     d->field = array_new(d->parts, sizeof *d->field);
-    if (d->field == NULL || !share_model(given, 1, MODEL_VALUES, &d->field[0])) return false;
+    if (d->field == NULL || !share_model(d->fitting, given, 0)) return false;
     for (size_t p = 1; p < d->parts; p++)
-        if (!share_model(&d->field[0], MODEL_VALUES, MODEL_SETS, &d->field[p])) return false;
+        if (!share_model(d->fitting, &d->field[0], p)) return false;
     for (size_t p = 0; p < d->parts; p++)
         d->field[p].given = given;
     return true;
@@ -237,19 +304,19 @@ static bool field_new(struct damped *d, const struct ground_model *given)
 selas_status damped_field(struct damped *d, const struct scene *scene, struct messages *messages)
 {
     const struct ground_model *given = scene->body.model;
-    struct fitting *fitting = fitting_new(d, given);
-    if (fitting == NULL || !field_new(d, given)) {
-        array_free(fitting);
+    d->fitting = fitting_new(d, given);
+    if (d->fitting == NULL || !field_new(d))
         return fail(messages, SELAS_NO_MEMORY, "no memory for the ground's damping");
-    }
     selas_status status =
-        given->damped ? damping_curve_set(d->damping, given, &fitting->curve, messages) : SELAS_OK;
-    for (size_t i = 0; i < given->grids && status == SELAS_OK; i++)
-        if (!lay_grid(fitting, given, i, d->field))
+        given->damped ? damping_curve_set(d->damping, given, &d->fitting->curve, messages) : SELAS_OK;
+    for (size_t i = 0; i < given->grids && status == SELAS_OK; i++) {
+        struct laying laying = {d->fitting, i};
+        bool unread = false;
+        if (!model_walk(&given->grid[i], lay_box, &laying, &unread) && !unread)
             status = fail(messages, SELAS_BAD_SCENE,
                           "damping: %zu relaxation mechanisms cannot stand for the Q of the &model",
                           d->damping->mechanisms);
-    if (status == SELAS_OK) refit_samples(fitting, scene);
-    array_free(fitting);
+    }
+    if (status == SELAS_OK) refit_samples(d->fitting, scene);
     return status;
 }
