@@ -1,6 +1,7 @@
 /* A simulation that ranks share (doc/howto/ranks.md): what they are told, and what runs on one rank alone. */
 #include "host/simulation.h"
 #include "parallel/ranks.h"
+#include "scene/ground.h"
 
 void simulation_share(selas_simulation *simulation, struct ranks *ranks)
 {
@@ -34,6 +35,7 @@ selas_status shared_check(selas_simulation *simulation)
         functions = functions || host->face[face].function != NULL;
     for (size_t i = 0; i < host->loads; i++)
         functions = functions || host->load[i].function != NULL;
+    ground_model_forget(simulation->scene->body.model);
     if (ranks_count(simulation->ranks) == 1 || !functions) return SELAS_OK;
     return fail(&simulation->messages, SELAS_UNSUPPORTED,
                 "a function of the host that drives a load or a face: on one rank only; selas_set_load gives "
@@ -63,4 +65,23 @@ void shared_gather_times(selas_simulation *simulation)
     ranks_largest(simulation->ranks, 2, longest);
     figures->mean = (struct rank_times){sum[0] / count, sum[1] / count};
     figures->longest = (struct rank_times){longest[0], longest[1]};
+}
+
+selas_status shared_made(selas_simulation *simulation, selas_status status)
+{
+    const struct ground_model *ground = simulation->scene->body.model;
+    ground_model_bytes(ground, simulation->figures.ground);
+    ranks_largest(simulation->ranks, 2, simulation->figures.ground);
+    ground_model_forget(ground);
+    return ranks_agree(simulation->ranks, status, &simulation->messages);
+}
+
+selas_status shared_prepared(selas_simulation *simulation, selas_status status)
+{
+    const struct ground_model *ground = simulation->scene->body.model;
+    ground_model_forget(ground);
+    if (status == SELAS_OK && !ground_model_sound(ground))
+        status = fail(&simulation->messages, SELAS_FILE_ERROR,
+                      "values of the &model cannot be read any more, or there is no memory for them");
+    return ranks_agree(simulation->ranks, status, &simulation->messages);
 }

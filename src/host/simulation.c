@@ -7,7 +7,6 @@
 #include "base/memory.h"
 #include "host/simulation.h"
 #include "parallel/ranks.h"
-#include "scene/ground.h"
 
 #include <math.h>
 #include <omp.h>
@@ -233,22 +232,17 @@ selas_status simulation_prepare(selas_simulation *simulation)
     struct messages *messages = &simulation->messages;
     const struct stopwatch begun = start_watch();
     status = shared_check(simulation);
-    const struct ground_model *ground = simulation->scene->body.model;
-    ground_model_forget(ground);
     if (status == SELAS_OK && simulation->model == NULL)
         status = model_create(simulation->scene, &simulation->model, messages);
     if (ranks_idle(simulation->ranks)) return SELAS_STOPPED;
-    status = ranks_agree(simulation->ranks, status, messages);
+    status = shared_made(simulation, status);
     if (status == SELAS_OK && simulation->stepper == NULL)
         status = stepper_create(simulation->model, &simulation->stepper, messages);
     if (status == SELAS_OK) host_prepare_stepper(simulation);
     if (status == SELAS_OK && simulation->recorder == NULL)
         status = recorder_create(simulation->scene, simulation->model, simulation->stepper,
                                  &simulation->recorder, messages);
-    if (status == SELAS_OK && !ground_model_sound(ground))
-        status = fail(messages, SELAS_FILE_ERROR, "values of the &model cannot be read any more, or have no memory");
-    ground_model_forget(ground);
-    status = ranks_agree(simulation->ranks, status, messages);
+    status = shared_prepared(simulation, status);
     if (status == SELAS_OK) recorder_weigh(simulation->recorder);
     simulation->prepared = status == SELAS_OK;
     simulation->figures.threads = omp_get_max_threads();

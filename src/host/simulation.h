@@ -122,6 +122,10 @@ selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint
 
 /* host/shared.c: from now on the ranks share the work of this simulation: before its model is made. */
 void simulation_share(selas_simulation *simulation, struct ranks *ranks);
+/* Together: what the model's making and all of the preparing came to, on all ranks. Values of a &model that were read
+ * meanwhile are counted and let go; SELAS_FILE_ERROR where some could not be read. */
+selas_status shared_made(selas_simulation *simulation, selas_status status);
+selas_status shared_prepared(selas_simulation *simulation, selas_status status);
 /* SELAS_UNSUPPORTED for what is not done on more than one rank. */
 selas_status shared_check(selas_simulation *simulation);
 /* Time of this rank in steps; together: that of all, for the report. */

@@ -29,6 +29,8 @@ struct run_figures {
     double exact_cpu_seconds;
     int threads;
     double halo_bytes; /* that this rank sent in the last step */
+    double
+        ground[2]; /* bytes of values of a model in pieces: read for the lattice by the rank with most, all */
     struct rank_times here, mean, longest;
 };
 

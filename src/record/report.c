@@ -70,6 +70,9 @@ static void write_cost(FILE *out, const struct recorder *recorder, const struct 
         if (recorder->exact != NULL) fprintf(out, "exact CPU seconds: %.4g\n", figures->exact_cpu_seconds);
         fprintf(out, "stepping wall seconds: %.4g\n", figures->wall_seconds);
     }
+    if (figures != NULL && figures->ground[1] > 0)
+        fprintf(out, "ground values read for the lattice: %.0f of %.0f bytes\n", figures->ground[0],
+                figures->ground[1]);
     if (figures != NULL && figures->halo_bytes > 0)
         fprintf(out, "halo bytes sent in the last step: %.0f\n", figures->halo_bytes);
     if (figures != NULL && figures->longest.worked > 0) {

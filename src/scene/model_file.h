@@ -65,8 +65,8 @@ bool model_part(struct model_source *source, struct model_grid *grid, int axis, 
                 size_t count, size_t *first);
 bool model_even_part(struct model_source *source, struct model_grid *grid, int axis, double from, double step,
                      size_t count, size_t *first);
-/* Room for the values when the places are known: those of the first `sets` that have none. Values of large grids get none:
- * they are read in pieces. */
+/* Room for the values when the places are known: those of the first `sets` that have none. Values of large grids get
+ * none: they are read in pieces. */
 bool model_room(struct model_source *source, struct model_grid *grid, int sets);
 /* In every column from the top values of air and water become those of the first rock below, also in the grid below;
  * false after complaining. */

@@ -239,6 +239,18 @@ void ground_model_forget(const struct ground_model *model)
         model_pieces_forget(&model->grid[i]);
 }
 
+void ground_model_bytes(const struct ground_model *model, double bytes[2])
+{
+    bytes[0] = bytes[1] = 0;
+    for (size_t i = 0; model != NULL && i < model->grids; i++) {
+        const struct model_grid *grid = &model->grid[i];
+        if (grid->pieces == NULL) continue;
+        bytes[0] += (double)model_pieces_bytes(grid);
+        bytes[1] += (double)(grid->n[0] * grid->n[1] * grid->n[2] * sizeof(double)) *
+                    (model->damped ? MODEL_SETS : MODEL_VALUES);
+    }
+}
+
 bool ground_model_sound(const struct ground_model *model)
 {
     bool broken = false;

@@ -6,7 +6,7 @@
 #include <math.h>
 
 /* Values of a piece along the axes: few over depth, across which ranks share a lattice. */
-static const size_t extent[3] = {32, 16, 8};
+static const size_t extent[3] = {16, 16, 8};
 /* Bytes of a box of model_walk(), if that has one column at least. */
 enum { BOX_BYTES = 8 << 20 };
 
@@ -98,8 +98,7 @@ static void mend(const struct model_grid *grid, const struct model_grid *box, co
     const struct model_pieces *pieces = grid->pieces;
     const int sets = pieces->origin.sets;
     for (size_t column = 0; column < box->n[0] * box->n[1] && pieces->rock != NULL; column++) {
-        const size_t whole =
-            (first[0] + column / box->n[1]) * grid->n[1] + first[1] + column % box->n[1];
+        const size_t whole = (first[0] + column / box->n[1]) * grid->n[1] + first[1] + column % box->n[1];
         for (size_t k = 0; k < box->n[2] && first[2] + k < pieces->rock[whole]; k++)
             for (int set = 0; set < sets; set++)
                 box->value[set][column * box->n[2] + k] = pieces->fill[whole * (size_t)sets + (size_t)set];

@@ -7,8 +7,8 @@
 
 struct model_pieces;
 
-/* Where the values come from: fills box->value[set] [n[0] n[1] n[2]], z fastest, of all sets with those from first[] on,
- * counted in the grid; one thread at a time. False: they cannot be read. */
+/* Where the values come from: fills box->value[set] [n[0] n[1] n[2]], z fastest, of all sets with those from first[]
+ * on, counted in the grid; one thread at a time. False: they cannot be read. */
 struct model_origin {
     bool (*read)(void *context, const struct model_grid *box, const size_t first[3]);
     void (*free)(void *context);
@@ -22,7 +22,7 @@ bool model_pieces_new(struct model_grid *grid, const struct model_origin *origin
 void *model_pieces_context(const struct model_grid *grid);
 void model_pieces_free(struct model_grid *grid);
 
-/* The values at indices of the grid: of set s there is value[s * step[3]], those `up` places on along each axis are
+/* The values at indices of the grid: of set s there is value[s * step[3]]; those `up` places on along each axis are
  * up[0] step[0] + up[1] step[1] + up[2] further, as far as up <= left. */
 struct model_piece {
     const double *value;
@@ -44,9 +44,9 @@ bool model_pieces_read(const struct model_grid *grid, const struct model_grid *b
  * become [sets]. Owned from then on. */
 void model_pieces_fill(struct model_grid *grid, unsigned *rock, double *value);
 
-/* Hands all values of a grid to `visit`, in the order of the grid: those kept whole at once, else whole columns in boxes
- * of a few MB, which have the grid's places. Ends with false when visit does, with false and *unread where they cannot be
- * read. */
+/* Hands all values of a grid to `visit`, in the order of the grid: those kept whole at once, else whole columns in
+ * boxes of a few MB, which have the grid's places. Ends with false when visit does, with false and *unread where they
+ * cannot be read. */
 typedef bool model_visit(void *context, const struct model_grid *box, size_t first_column);
 bool model_walk(const struct model_grid *grid, model_visit *visit, void *context, bool *unread);
 

@@ -37,7 +37,7 @@ struct rfile {
 struct rows {
     FILE *file;
     bool swapped;
-    size_t bytes;      /* of a number */
+    size_t bytes;       /* of a number */
     unsigned char *row; /* of a column's numbers */
     struct block block;
     size_t first[3];
@@ -141,8 +141,8 @@ static double number_at(const struct rows *rows, size_t i)
     return rows->bytes == 4 ? (double)single : number;
 }
 
-static bool read_column(const struct rows *rows, const struct model_grid *box, const size_t first[3], size_t i,
-                        size_t j)
+static bool read_column(const struct rows *rows, const struct model_grid *box, const size_t first[3],
+                        size_t i, size_t j)
 {
     const struct block *block = &rows->block;
     const size_t components = (size_t)block->components, count = box->n[2] * components;

@@ -28,10 +28,10 @@ struct damped {
     size_t parts;
     struct damped_part part[1 + MOST_MECHANISMS];
     struct ground_model
-        *field;        /* [parts] of a model: with unrelaxed speeds and the part's shares; NULL: none */
+        *field;              /* [parts] of a model: with unrelaxed speeds and the part's shares; NULL: none */
     struct fitting *fitting; /* field.c: what that is made with */
-    double *effective; /* [2 * unknowns]: e_p, and what else stands behind u in a state */
-    double *sum;       /* [unknowns]: accelerations of one part; NULL: there is only part 0 */
+    double *effective;       /* [2 * unknowns]: e_p, and what else stands behind u in a state */
+    double *sum;             /* [unknowns]: accelerations of one part; NULL: there is only part 0 */
 };
 
 static inline struct damped *damped_of(struct model *model)

@@ -220,7 +220,8 @@ static void refit_samples(const struct fitting *fitting, const struct scene *sce
 static bool fit_later(const struct fitting *fitting, size_t number, size_t p, struct model_grid *grid)
 {
     struct fitted *fitted = array_new(1, sizeof *fitted);
-    const struct model_origin origin = {read_fitted, array_free, fitted, MODEL_SETS, &fitting->given->grid[number]};
+    const struct model_origin origin = {read_fitted, array_free, fitted, MODEL_SETS,
+                                        &fitting->given->grid[number]};
     if (fitted != NULL) *fitted = (struct fitted){fitting, number, p};
     if (fitted != NULL && model_pieces_new(grid, &origin)) return true;
     array_free(fitted);
