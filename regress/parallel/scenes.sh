@@ -35,7 +35,7 @@ same_fields() { # same_fields FOLDER: what run.h5 and the XDMF files show, alone
         h5diff -q "$work/alone/run.h5" "$work/$1/run.h5" /snapshots && h5diff -q "$work/alone/run.h5" "$work/$1/run.h5" /points
 }
 figures() { # figures REPORT: what is the same for any number of ranks; where `cloud` would be right, ranks are told what they have
-    grep -vE '^(date|ranks|halo bytes|planned|estimated|exact CPU|energy|work|threads|set-up|stepping|load balance|waiting|peak memory|bytes per point|model memory|point-steps|memory variables|passes of layers|layers skipped|operator skipped|ground values|warning: of )' "$1" | sed "s/variant = 'c[a-z]*' would be right/another &/; s/'c[a-z]*' would/would/"
+    grep -vE '^(date|ranks|halo bytes|planned|estimated|exact CPU|energy|work|threads|set-up|stepping|load balance|waiting|peak memory|bytes per point|model memory|point-steps|memory variables|passes of layers|layers skipped|operator skipped|ground values|efficiency expected|warning: of )' "$1" | sed "s/variant = 'c[a-z]*' would be right/another &/; s/'c[a-z]*' would/would/"
 }
 planned_halo() { # planned_halo REPORT: its bytes sent in the last step are those planned, for each operator call
     awk -F ': ' '/^halo bytes a step/ { planned = $2 + 0 } /^halo bytes sent/ { sent = $2 + 0 } /^scheme/ { one = $2 == "leapfrog" || $2 == "euler" }

@@ -15,6 +15,17 @@ same 2 "the same in single precision" $stepped method%precision=single body%high
 same 3 "general ground in two dimensions, layers" regress/parallel/tall-plane.nml load%delay=.5 scene%end_time=1.5 snapshot%every=.7
 same "3 4" "moment tensors beside the sides of a block" regress/parallel/block-side.nml
 
+# The plan's efficiency by Eq (R2b) of doc/developers/ranks.md, of two slabs without layers: seconds of a column of own points,
+# of h in the halo, of 3 h numbers sent, of a message
+timeout 60 $mpirun -n 2 "$build/selas-mpi" check $hill >"$work/plan" 2>"$work/log"
+awk '/^ranks: 2, planes/ { a = $(NF - 1); b = $NF } /^halo bytes a step/ { sub(/.*\(/, ""); h = $1 }
+    /^efficiency expected/ { told = $3 } END {
+        columns = '"$(sed -n 's/^halo bytes a step: \([0-9]*\) .*/\1/p' "$work/plan")"' / (24 * h)
+        most = a > b ? a : b
+        e = 16.4e-9 * (a + b) / 2 / (16.4e-9 * most + 3e-9 * h + 24 * h / 2e9 + 2e-6 / columns)
+        d = told - e; exit !(told > 0 && told < 1 && d * d < .00505 ^ 2) }' "$work/plan"
+verdict $? "the plan on ranks tells the efficiency of the model of cost"
+
 # A model of the ground from a file (an rfile of SW4: 17 x 17 x 481 values, two rocks in turn): a rank reads what its lattice
 # needs.
 LC_ALL=C awk 'function bytes(list, n, i, one) { n = split(list, one, " "); for (i = 1; i <= n; i++) printf "%c", one[i] }

@@ -189,6 +189,12 @@ void shared_describe(const struct consistent *c,
     snprintf(text + used, sizeof text - (size_t)used,
              y->ranks > 1 ? ", %zu rows to a neighbour)" : " to a neighbour)", y->halo);
     tell(context, "halo bytes a step", text);
+    const struct part_outlook outlook = part_outlook(c);
+    snprintf(text, sizeof text,
+             "%.2f (balance %.2f; of even ground in one pass, with 16.4 ns a point, 3 ns of the halo, 2 GB/s "
+             "and 2 us a message)",
+             outlook.efficiency, outlook.balance);
+    tell(context, "efficiency expected", text);
 }
 
 /* --- What is wrong -------------------------------------------------------------------------------------- */

@@ -56,6 +56,12 @@ struct rank_part {
 /* Shares the control values of the body, after the axes are known: sets c->part and the window's sizes; ranks that are
  * too many become idle, whose status is SELAS_STOPPED. */
 selas_status part_lay(struct consistent *c, struct messages *messages);
+/* What the blocks let expect, of a step in one pass on even ground with the times that Eq (R2b) assumes: mean over
+ * largest work, and seconds without ranks over ranks times seconds. */
+struct part_outlook {
+    double balance, efficiency;
+};
+struct part_outlook part_outlook(const struct consistent *c);
 void part_free(struct consistent *c);
 
 /* Does the rank have a part of the rows alone? */

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "scene/absorbing_layers.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -262,6 +263,63 @@ selas_status part_lay(struct consistent *c, struct messages *messages)
         take_window(c, slot);
     lay_turns(c);
     return lay_room(c) ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
+}
+
+/* --- What is expected of it: Eq (R2b) of doc/developers/ranks.md for each block ---------------------------- */
+
+/* Seconds of a point (measured), of a point of the halo, of a byte and of a message (assumed). */
+static const double point = 16.4e-9, halo_point = 3e-9, byte = 1 / 2e9, message = 2e-6;
+
+/* Planes or rows from .. end - 1 that lie in an absorbing layer. */
+static double layers_between(const struct consistent *c, int slot, size_t from, size_t end)
+{
+    const size_t *layer = &c->layer[2 * axis_of(c, slot)], whole = c->part.along[slot].whole;
+    double count = 0;
+    for (size_t k = from; k < end; k++)
+        count += k < layer[0] || k + layer[1] >= whole ? 1 : 0;
+    return count;
+}
+
+/* What part `part` along a slot has of its own and in its window, and of how many neighbours. */
+struct side {
+    double own, window, layers;
+    int neighbours;
+};
+
+static struct side side_of(const struct part_axis *along, const struct consistent *c, int slot, int part)
+{
+    const size_t from = along->bound != NULL ? along->bound[part] : 0,
+                 end = along->bound != NULL ? along->bound[part + 1] : along->whole;
+    struct side side = {.own = (double)(end - from), .layers = layers_between(c, slot, from, end)};
+    side.neighbours = (part > 0) + (part + 1 < along->ranks);
+    side.window = side.own + (double)(from < along->halo ? from : along->halo) +
+                  (double)(along->whole - end < along->halo ? along->whole - end : along->halo);
+    if (part == 0 && along->ranks == 1) side.window = side.own;
+    return side;
+}
+
+struct part_outlook part_outlook(const struct consistent *c)
+{
+    const struct part_axis *y = &c->part.along[1], *z = &c->part.along[DEPTH];
+    const double x = (double)c->part.along[0].whole, beside = layers_between(c, 0, 0, c->part.along[0].whole);
+    double most = 0, longest = 0, sum = 0;
+    for (int rank = 0; rank < y->ranks * z->ranks; rank++) {
+        const struct side rows = side_of(y, c, 1, rank % y->ranks),
+                          planes = side_of(z, c, DEPTH, rank / y->ranks);
+        const double points = x * rows.own * planes.own;
+        const double work = points + layer_cost(c->model.scene) *
+                                         (beside * rows.own * planes.own + x * rows.layers * planes.own +
+                                          x * rows.own * planes.layers);
+        const double sent = (double)(sizeof(double) * (size_t)c->dimension) * x *
+                            (rows.neighbours * (double)y->halo * planes.own +
+                             planes.neighbours * (double)z->halo * rows.window);
+        most = fmax(most, work);
+        longest = fmax(longest, point * work + halo_point * (x * rows.window * planes.window - points) +
+                                    byte * sent + message * (rows.neighbours + planes.neighbours));
+        sum += work;
+    }
+    const double mean = sum / (y->ranks * z->ranks);
+    return (struct part_outlook){.balance = mean / most, .efficiency = point * mean / longest};
 }
 
 void part_free(struct consistent *c)
