@@ -170,7 +170,7 @@ double ground_model_step(const struct ground_model *model)
 /* The first `sets` values at a place of the body. */
 static void values_at(const struct ground_model *model, const double place[3], int sets, double *value)
 {
-    double there[3];
+    double there[3] = {0};
     const double z = fmin(model->sea ? place[2] : fmax(place[2], model->low[2]), model->high[2]);
     place_in(model, place, there);
     const struct model_grid *grid = grid_at(model, z - model->low[2], there);

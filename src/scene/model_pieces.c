@@ -126,7 +126,7 @@ static struct model_grid box_at(const struct model_grid *grid, const size_t firs
         box.n[axis] = left < most[axis] ? left : most[axis];
         box.at[axis] = grid->at[axis] + first[axis];
     }
-    for (int set = 0; set < grid->pieces->origin.sets; set++)
+    for (int set = 0; set < grid->pieces->origin.sets && value != NULL; set++)
         box.value[set] = value + (size_t)set * box.n[0] * box.n[1] * box.n[2];
     return box;
 }

@@ -167,7 +167,7 @@ static bool lay_box(void *context, const struct model_grid *box, size_t first_co
     const struct model_grid *made[1 + MOST_MECHANISMS] = {NULL};
     for (size_t p = 0; p < d->parts; p++)
         made[p] = &d->field[p].grid[laying->number];
-    return fit_box(laying->fitting, box, made[0]->pieces == NULL ? made : NULL);
+    return fit_box(laying->fitting, box, d->field[0].grid[laying->number].pieces == NULL ? made : NULL);
 }
 
 /* Context of pieces of a part's grid. */
