@@ -43,6 +43,8 @@ model ""
 "$build/selas" -q "$out/d.nml" output%directory="$out/model" && "$build/selas" -q "$out/even.nml" body%material=rock output%directory="$out/even" output%plots=F
 "$build/selas" diff "$out/model/r.dat" "$out/even/r.dat" --rtol=1e-9 >"$out/log" 2>&1
 ok "an even model: the histories of an even body" test $? = 0
+in_pieces() { SELAS_MODEL_KEPT=0 "$build/test/test_model_files" >"$out/log" 2>&1; }
+[ ! -x "$build/test/test_model_files" ] || ok "models in pieces: values, faults and air as of whole ones" in_pieces
 ok "a run on ground from a file draws it" test -s "$out/model/ground.png"
 ok "the plan says how depth is taken" says "$out/model/report.txt" "depth 0 is its elevation 0"
 
