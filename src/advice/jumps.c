@@ -189,6 +189,11 @@ static double modulus_jump(const struct scene *scene, const struct ground_block 
     return most;
 }
 
+static bool is_point_force(const struct load *load)
+{
+    return load->kind != LOAD_MOMENT_TENSOR && load->shape == LOAD_POINT;
+}
+
 /* How many times the density differs along the axes within 1.5 spacings of a point force, at most. */
 static double density_beside(const struct scene *scene)
 {
@@ -198,7 +203,7 @@ static double density_beside(const struct scene *scene)
     for (size_t k = 0; k < scene->loads; k++) {
         const struct load *load = &scene->load[k];
         double centre[3] = {0, 0, 0}, low = INFINITY, high = 0;
-        if (load->kind == LOAD_MOMENT_TENSOR || load->shape != LOAD_POINT) continue;
+        if (!is_point_force(load)) continue;
         ground_from_deck(&scene->body, load->centre, centre);
         for (int axis = 0; axis < scene->dimension; axis++)
             for (int n = -STEPS; n <= STEPS; n++) {
@@ -213,12 +218,54 @@ static double density_beside(const struct scene *scene)
     return most;
 }
 
+/* How many times the shear modulus differs across the corner of a box within .6 spacings of a place along two axes at
+ * least, on whose edge it lies in space; 1: there is none. */
+static double modulus_at_corner(const struct scene *scene, const struct ground_block *block,
+                                const double centre[3])
+{
+    const double within = .6 * scene->body.spacing;
+    double corner[3] = {centre[0], centre[1], centre[2]}, low = INFINITY, high = 0;
+    unsigned near = 0, sides = 0;
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double away = centre[axis] - block->centre[axis];
+        if (fabs(away) > block->half[axis] + within) return 1;
+        if (fabs(away) < block->half[axis] - within) continue;
+        corner[axis] = block->centre[axis] + copysign(block->half[axis], away);
+        near |= 1U << axis;
+        sides++;
+    }
+    if (sides < 2 || block->shape != BLOCK_BOX) return 1;
+    for (unsigned quadrant = 0; quadrant < 8; quadrant++) {
+        double place[3] = {corner[0], corner[1], corner[2]};
+        for (unsigned axis = 0; axis < 3; axis++)
+            if (near >> axis & 1U) place[axis] += quadrant >> axis & 1U ? within : -within;
+        const double mu = ground_at(scene, place).mu;
+        low = fmin(low, mu);
+        high = fmax(high, mu);
+    }
+    return high / low;
+}
+
+static double modulus_at_corners(const struct scene *scene)
+{
+    double most = 1;
+    for (size_t k = 0; k < scene->loads; k++) {
+        double centre[3] = {0, 0, 0};
+        if (!is_point_force(&scene->load[k])) continue;
+        ground_from_deck(&scene->body, scene->load[k].centre, centre);
+        for (size_t b = 0; b < scene->body.blocks; b++)
+            most = fmax(most, modulus_at_corner(scene, &scene->body.block[b], centre));
+    }
+    return most;
+}
+
 /* Interfaces that the splines carry smoothly. Measured in the plane (regress/studies/blocks): blocks of r times the
  * ground's density, or of r times its moduli, err by so much (r - 1) / p^2 at most, p the points a wavelength; where
- * forces act within 1.5 spacings of a jump of the density by 2.4 (r - 1) / p^2 of the densities there. */
+ * forces act within 1.5 spacings of a jump of the density by 2.4 (r - 1) / p^2 of the densities there, at corners of
+ * blocks by 1.5 of the moduli. */
 void look_at_weights(struct adviser *adviser)
 {
-    static const double seen = .1, of_densities = .85, beside = 2.4, of_moduli = .45;
+    static const double seen = .1, of_densities = .85, beside = 2.4, of_moduli = .45, at_corners = 1.5;
     const struct scene *scene = adviser->scene;
     const double points = points_per_wavelength(scene);
     double least = INFINITY, most = 0, moduli = 1;
@@ -231,7 +278,8 @@ void look_at_weights(struct adviser *adviser)
         moduli = fmax(moduli, modulus_jump(scene, &scene->body.block[k]));
     const double near = density_beside(scene);
     const double light = fmax(of_densities * (most / least - 1), beside * (near - 1)),
-                 soft = of_moduli * (moduli - 1), error = fmax(light, soft) / (points * points);
+                 soft = fmax(of_moduli * (moduli - 1), at_corners * (modulus_at_corners(scene) - 1)),
+                 error = fmax(light, soft) / (points * points);
     if (!(error > seen)) return;
     advise(
         adviser,

@@ -267,9 +267,6 @@ selas_status part_lay(struct consistent *c, struct messages *messages)
 
 /* --- What is expected of it: Eq (R2b) of doc/developers/ranks.md for each block ---------------------------- */
 
-/* Seconds of a point (measured), of a point of the halo, of a byte and of a message (assumed). */
-static const double point = 16.4e-9, halo_point = 3e-9, byte = 1 / 2e9, message = 2e-6;
-
 /* Planes or rows from .. end - 1 that lie in an absorbing layer. */
 static double layers_between(const struct consistent *c, int slot, size_t from, size_t end)
 {
@@ -314,12 +311,13 @@ struct part_outlook part_outlook(const struct consistent *c)
                             (rows.neighbours * (double)y->halo * planes.own +
                              planes.neighbours * (double)z->halo * rows.window);
         most = fmax(most, work);
-        longest = fmax(longest, point * work + halo_point * (x * rows.window * planes.window - points) +
-                                    byte * sent + message * (rows.neighbours + planes.neighbours));
+        longest =
+            fmax(longest, PART_POINT * work + PART_HALO_POINT * (x * rows.window * planes.window - points) +
+                              PART_BYTE * sent + PART_MESSAGE * (rows.neighbours + planes.neighbours));
         sum += work;
     }
     const double mean = sum / (y->ranks * z->ranks);
-    return (struct part_outlook){.balance = mean / most, .efficiency = point * mean / longest};
+    return (struct part_outlook){.balance = mean / most, .efficiency = PART_POINT * mean / longest};
 }
 
 void part_free(struct consistent *c)

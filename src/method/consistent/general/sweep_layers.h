@@ -62,16 +62,14 @@ static struct rows columns_read(const struct general *g, size_t l, size_t m, siz
 static void read_rates(const struct pass *pass, REAL *ring, size_t p, size_t m, size_t row)
 {
     const struct general *g = pass->c->general;
-    struct rows all = {0, 0};
+    struct rows all = {0, 0}, columns[BOX_FACES];
     for (size_t l = 0; l < g->layers; l++) {
-        const struct rows columns = columns_read(g, l, m, row);
-        if (g->layer[l].slot != 0) join(&all, columns.from, columns.end);
+        columns[l] = columns_read(g, l, m, row);
+        if (g->layer[l].slot != 0) join(&all, columns[l].from, columns[l].end);
     }
     if (all.from < all.end) read_row(pass, rate_of(pass, p), ring, m, row, all);
-    for (size_t l = 0; l < g->layers && all.from >= all.end; l++) {
-        const struct rows columns = columns_read(g, l, m, row);
-        if (columns.from < columns.end) read_row(pass, rate_of(pass, p), ring, m, row, columns);
-    }
+    for (size_t l = 0; l < g->layers && all.from >= all.end; l++)
+        if (columns[l].from < columns[l].end) read_row(pass, rate_of(pass, p), ring, m, row, columns[l]);
 }
 
 /* Row of the ring of a part. */

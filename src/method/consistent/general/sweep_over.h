@@ -52,6 +52,17 @@ static void depth(size_t n, const REAL *const in[SPAN], const REAL weight[DEPTH_
     }
 }
 
+/* Without their factors, of three numbers one after the other along an axis (of two at knots). */
+INLINED lanes value_across(const bool knots, const REAL *one, const REAL *two, const REAL *three)
+{
+    return knots ? at(one) + at(two) : 6 * at(two) + (at(one) + at(three));
+}
+
+INLINED lanes slope_across(const bool knots, const REAL *one, const REAL *two, const REAL *three)
+{
+    return at(knots ? two : three) - at(one);
+}
+
 /* Along y, of a component: value and slope of the values over depth, value of the slopes. */
 INLINED void along_y(const bool knots, const struct NAME(sweep_row) * row, int component, REAL *restrict a,
                      REAL *restrict b, REAL *restrict c)
@@ -61,20 +72,16 @@ INLINED void along_y(const bool knots, const struct NAME(sweep_row) * row, int c
                          *restrict v2 = row->in[2] + at_value;
     const REAL *restrict s0 = v0 + row->stride, *restrict s1 = v1 + row->stride,
                          *restrict s2 = v2 + row->stride;
-    for (size_t i = 0; i < row->width; i += LANES)
-        if (knots) {
-            put(a + i, at(v0 + i) + at(v1 + i));
-            put(b + i, at(v1 + i) - at(v0 + i));
-            put(c + i, at(s0 + i) + at(s1 + i));
-        } else {
-            const lanes low = at(v0 + i), high = at(v2 + i);
-            put(a + i, 6 * at(v1 + i) + (low + high));
-            put(b + i, high - low);
-            put(c + i, 6 * at(s1 + i) + (at(s0 + i) + at(s2 + i)));
-        }
+    for (size_t i = 0; i < row->width; i += LANES) {
+        const lanes value = value_across(knots, v0 + i, v1 + i, v2 + i),
+                    slope = slope_across(knots, v0 + i, v1 + i, v2 + i);
+        put(a + i, value);
+        put(b + i, slope);
+        put(c + i, value_across(knots, s0 + i, s1 + i, s2 + i));
+    }
 }
 
-/* Along y, of one of them, number `field`: its slope or value. */
+/* One of them in some columns, of the field given: its slope or value. */
 INLINED void one_along_y(const bool knots, const bool slope, const struct NAME(sweep_row) * row,
                          int component, int field, size_t from, size_t end, REAL *restrict out)
 {
@@ -82,20 +89,18 @@ INLINED void one_along_y(const bool knots, const bool slope, const struct NAME(s
     const REAL *restrict v0 = row->in[0] + place, *restrict v1 = row->in[1] + place,
                          *restrict v2 = row->in[2] + place;
     for (size_t i = from; i < end; i += LANES)
-        if (slope)
-            put(out + i, knots ? at(v1 + i) - at(v0 + i) : at(v2 + i) - at(v0 + i));
-        else
-            put(out + i, knots ? at(v0 + i) + at(v1 + i) : 6 * at(v1 + i) + (at(v0 + i) + at(v2 + i)));
+        put(out + i, slope ? slope_across(knots, v0 + i, v1 + i, v2 + i)
+                           : value_across(knots, v0 + i, v1 + i, v2 + i));
 }
 
 INLINED lanes value_of(const bool knots, const REAL *row)
 {
-    return knots ? at(row) + at(row + 1) : 6 * at(row + 1) + (at(row) + at(row + 2));
+    return value_across(knots, row, row + 1, row + 2);
 }
 
 INLINED lanes slope_of(const bool knots, const REAL *row)
 {
-    return knots ? at(row + 1) - at(row) : at(row + 2) - at(row);
+    return slope_across(knots, row, row + 1, row + 2);
 }
 
 /* Their transposes. */
