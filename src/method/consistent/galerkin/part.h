@@ -60,7 +60,7 @@ selas_status part_lay(struct consistent *c, struct messages *messages);
  * of a message (assumed). */
 #define PART_POINT 16.4e-9
 #define PART_HALO_POINT 3e-9
-#define PART_BYTE .5e-9
+#define PART_BYTE 5e-10
 #define PART_MESSAGE 2e-6
 /* What the blocks let expect, of a step in one pass on even ground with the times that Eq (R2b) assumes: mean over
  * largest work, and seconds without ranks over ranks times seconds. */
