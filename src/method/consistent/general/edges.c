@@ -12,8 +12,8 @@
 #include <string.h>
 
 enum { WIDE = 2, CLEAR = 3 }; /* cells with a share, and between an edge's points and a layer */
-enum { MOST_TAPS = 27 };      /* of a component */
-enum { LOOKED_AT = 64 };      /* points before one among which another that sees alike is sought */
+enum { MOST = 9 * EDGE_ROW }; /* numbers of a component */
+enum { LOOKED_AT = 256 };     /* points before one among which another that sees alike is sought */
 static const double shares[WIDE] = {1, .5};
 
 static int axis_of(const struct consistent *c, int slot)
@@ -189,32 +189,33 @@ static void mean_moduli(const struct consistent *c, const enum at at[3], const s
         mean[i] = sum[2] > 0 ? sum[i] / sum[2] : 0;
 }
 
-/* Room for one point's taps of a component behind those that are there. */
+/* Room for one point's numbers of a component behind those that are there. */
 static bool make_room(struct edges *edges)
 {
-    if (edges->taps + MOST_TAPS <= edges->room) return true;
-    const size_t room = 2 * edges->room + MOST_TAPS;
-    struct edge_tap *tap = array_new(room, sizeof *tap);
-    if (tap == NULL) return false;
-    if (edges->taps > 0) memcpy(tap, edges->tap, edges->taps * sizeof *tap);
-    array_free(edges->tap);
-    edges->tap = tap;
+    if (edges->used + MOST <= edges->room) return true;
+    const size_t room = 2 * edges->room + MOST;
+    double *slope = array_new(room, sizeof *slope);
+    if (slope == NULL) return false;
+    if (edges->used > 0) memcpy(slope, edges->slope, edges->used * sizeof *slope);
+    array_free(edges->slope);
+    edges->slope = slope;
     edges->room = room;
     return true;
 }
 
-/* Where the taps behind those in use stand already, as those of one of the last points; else they are in use now. */
-static size_t share_taps(struct edges *edges, int component, size_t count)
+/* Where the numbers behind those in use stand already, as those of one of the last points; else they are in use now. */
+static size_t share_slopes(struct edges *edges, int component, size_t count)
 {
-    const struct edge_tap *tap = edges->tap + edges->taps;
+    const double *slope = edges->slope + edges->used;
     const size_t last = edges->count - 1;
     for (size_t n = 1; n <= LOOKED_AT && n <= last; n++) {
         const struct edge_taps *of = &edges->point[last - n].of[component];
-        if (of->planes * of->each == count && memcmp(edges->tap + of->at, tap, count * sizeof *tap) == 0)
+        if (of->planes * of->rows * EDGE_ROW == count &&
+            memcmp(edges->slope + of->at, slope, count * sizeof *slope) == 0)
             return of->at;
     }
-    edges->taps += count;
-    return edges->taps - count;
+    edges->used += count;
+    return edges->used - count;
 }
 
 /* What a component's control values are at a point, by slot of the component: slopes along the axes. */
@@ -227,20 +228,24 @@ static bool lay_taps(const struct consistent *c, const enum at at[3], const size
     for (int slot = 0; slot < 3; slot++)
         taps[slot] = &c->general->taps[slot][slot == component][at[slot]][place[slot]];
     const struct taps *x = taps[0], *y = taps[1], *z = taps[2];
+    const size_t columns = c->n[0] < EDGE_LANES ? c->n[0] : EDGE_LANES, most = c->n[0] - columns,
+                 column = x->first < most ? x->first : most;
     if (!make_room(edges)) return false;
-    struct edge_tap *tap = edges->tap + edges->taps;
+    double *row = edges->slope + edges->used;
     for (size_t k = 0; k < z->count; k++)
-        for (size_t j = 0; j < y->count; j++)
+        for (size_t j = 0; j < y->count; j++, row += EDGE_ROW) {
+            memset(row, 0, EDGE_ROW * sizeof *row);
             for (size_t i = 0; i < x->count; i++) {
                 double slope[3] = {x->slope[i] * y->value[j] * z->value[k],
                                    x->value[i] * y->slope[j] * z->value[k],
                                    x->value[i] * y->value[j] * z->slope[k] * stretch};
                 metric_tilt(metric, slope);
-                *tap++ = (struct edge_tap){(unsigned)j, (unsigned)i, {slope[0], slope[1], slope[2]}};
+                for (int slot = 0; slot < 3; slot++)
+                    row[(size_t)slot * EDGE_LANES + x->first - column + i] = slope[slot];
             }
-    const size_t each = x->count * y->count;
-    *of = (struct edge_taps){z->first, z->count, y->first,
-                             x->first, each,     share_taps(edges, component, z->count * each)};
+        }
+    const size_t at_numbers = share_slopes(edges, component, z->count * y->count * EDGE_ROW);
+    *of = (struct edge_taps){z->first, z->count, y->first, y->count, column, columns, at_numbers};
     return true;
 }
 
@@ -256,11 +261,10 @@ static bool lay_point(const struct consistent *c, const enum at at[3], const siz
     for (int axis = 0; axis < c->dimension; axis++) {
         struct edge_taps *of = &point->of[c->slot[axis]];
         if (!lay_taps(c, at, place, c->slot[axis], &metric, edges, of)) return false;
-        const size_t last = of->row + edges->tap[of->at + of->each - 1].row;
         if (of->plane < point->plane) point->plane = of->plane;
         if (of->plane + of->planes > point->plane_end) point->plane_end = of->plane + of->planes;
         if (of->row < point->row) point->row = of->row;
-        if (last >= point->row_end) point->row_end = last + 1;
+        if (of->row + of->rows > point->row_end) point->row_end = of->row + of->rows;
     }
     return true;
 }
@@ -317,7 +321,7 @@ bool general_lay_edge_points(struct consistent *c)
         if (here > edges->most) edges->most = here;
     }
     c->general->bytes += (c->n[DEPTH] + 1) * sizeof *edges->start + points * sizeof *edges->point +
-                         edges->room * sizeof *edges->tap;
+                         edges->room * sizeof *edges->slope;
     return edges->count == points;
 }
 
@@ -332,7 +336,7 @@ void general_free_edges(struct consistent *c)
         }
     array_free(edges->start);
     array_free(edges->point);
-    array_free(edges->tap);
+    array_free(edges->slope);
     array_free(edges);
 }
 
@@ -352,11 +356,33 @@ static bool is_loud(const struct consistent *c, const struct edge_point *point)
     return false;
 }
 
-static size_t place_of(const struct consistent *c, int axis, size_t k, const struct edge_taps *of,
-                       const struct edge_tap *tap)
+/* The first number of a row that a point sees of a component. */
+static size_t place_of(const struct consistent *c, int axis, size_t k, const struct edge_taps *of, size_t row)
 {
-    return (size_t)axis * c->volume + k * c->plane + (of->row + tap->row) * c->n[0] + of->column +
-           tap->column;
+    return (size_t)axis * c->volume + k * c->plane + (of->row + row) * c->n[0] + of->column;
+}
+
+static void add_slopes(const struct consistent *c, int axis, const struct edge_taps *of, const double *u,
+                       double slope[3])
+{
+    const double *row = c->general->edges->slope + of->at;
+    for (size_t k = of->plane; k < of->plane + of->planes; k++)
+        for (size_t j = 0; j < of->rows; j++, row += EDGE_ROW)
+            for (size_t i = 0; i < of->columns; i++)
+                for (int slot = 0; slot < 3; slot++)
+                    slope[slot] += row[slot * EDGE_LANES + (int)i] * u[place_of(c, axis, k, of, j) + i];
+}
+
+/* What a component's stresses pull at in planes from .. end - 1. */
+static void take_pulls(const struct consistent *c, int axis, const struct edge_taps *of, const double pull[3],
+                       size_t from, size_t end, double *force)
+{
+    const double *row = c->general->edges->slope + of->at;
+    for (size_t k = of->plane; k < of->plane + of->planes; k++)
+        for (size_t j = 0; j < of->rows; j++, row += EDGE_ROW)
+            for (size_t i = 0; k >= from && k < end && i < of->columns; i++)
+                force[place_of(c, axis, k, of, j) + i] -=
+                    row[i] * pull[0] + row[EDGE_LANES + i] * pull[1] + row[2 * EDGE_LANES + i] * pull[2];
 }
 
 void general_edges(const struct consistent *c, const double *u, size_t from, size_t end, double *force)
@@ -367,24 +393,10 @@ void general_edges(const struct consistent *c, const double *u, size_t from, siz
         const struct edge_point *point = &edges->point[n];
         double slope[3][3] = {{0}}, stress[3][3] = {{0}};
         if (!is_loud(c, point)) continue;
-        for (int axis = 0; axis < c->dimension; axis++) {
-            const struct edge_taps *of = &point->of[c->slot[axis]];
-            const struct edge_tap *tap = edges->tap + of->at;
-            for (size_t k = of->plane; k < of->plane + of->planes; k++)
-                for (size_t t = 0; t < of->each; t++, tap++)
-                    for (int slot = 0; slot < 3; slot++)
-                        slope[c->slot[axis]][slot] += tap->slope[slot] * u[place_of(c, axis, k, of, tap)];
-        }
+        for (int axis = 0; axis < c->dimension; axis++)
+            add_slopes(c, axis, &point->of[c->slot[axis]], u, slope[c->slot[axis]]);
         general_edge_stress(point, slope, stress);
-        for (int axis = 0; axis < c->dimension; axis++) {
-            const struct edge_taps *of = &point->of[c->slot[axis]];
-            const struct edge_tap *tap = edges->tap + of->at;
-            const double *pull = stress[c->slot[axis]];
-            for (size_t k = of->plane; k < of->plane + of->planes; k++)
-                for (size_t t = 0; t < of->each; t++, tap++)
-                    if (k >= from && k < end)
-                        force[place_of(c, axis, k, of, tap)] -=
-                            tap->slope[0] * pull[0] + tap->slope[1] * pull[1] + tap->slope[2] * pull[2];
-        }
+        for (int axis = 0; axis < c->dimension; axis++)
+            take_pulls(c, axis, &point->of[c->slot[axis]], stress[c->slot[axis]], from, end, force);
     }
 }

@@ -13,8 +13,10 @@
 #include <string.h>
 
 enum { ALIGN = 8 };
+enum { EIGHTHS = 8 }; /* values and slopes times the spacing of the functions at knots and middles are whole ones */
 
-/* Functions at one place of an axis, in ascending order, without those that are 0. */
+/* Functions at one place of an axis, in ascending order, without those that are 0; at places that are alike the same
+ * bits. */
 static void lay_taps(const struct spline *spline, bool odd, double x, struct taps *taps)
 {
     const double spacing = (spline->high - spline->low) / (double)spline->cells;
@@ -35,8 +37,8 @@ static void lay_taps(const struct spline *spline, bool odd, double x, struct tap
         end--;
     *taps = (struct taps){.first = first + from, .count = end - from};
     for (size_t j = from; j < end; j++) {
-        taps->value[j - from] = value[j];
-        taps->slope[j - from] = slope[j];
+        taps->value[j - from] = rint(EIGHTHS * value[j]) / EIGHTHS;
+        taps->slope[j - from] = rint(EIGHTHS * spacing * slope[j]) / EIGHTHS / spacing;
     }
 }
 

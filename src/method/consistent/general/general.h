@@ -27,10 +27,13 @@ struct edge_line {
     double *share, *plain;
 };
 
-/* What a point sees of a component: control values of `planes` planes, `each` in each of them, from a row and column
- * on; points that see alike share the numbers. */
+/* What a point sees of a component: control values of some planes, rows and columns. Slopes of their functions along
+ * the axes, in edges.slope from `at` on: [planes][rows][slot][EDGE_LANES], of which
+ * columns are there; points that see alike
+ * share them. */
+enum { EDGE_LANES = 4, EDGE_ROW = 3 * EDGE_LANES };
 struct edge_taps {
-    size_t plane, planes, row, column, each, at; /* of the first in edges.tap */
+    size_t plane, planes, row, rows, column, columns, at;
 };
 
 /* A point near an edge that is of no family; moduli times its weight; planes and rows that it sees; by slot of the
@@ -46,11 +49,8 @@ struct edges {
     size_t count, most;          /* points; at most so many begin in a plane */
     size_t *start; /* [n[DEPTH] + 1]: those that see plane k first are start[k] to start[k + 1] */
     struct edge_point *point;
-    size_t taps, room; /* of tap: in use, and in all */
-    struct edge_tap {
-        unsigned row, column; /* from those of the point on */
-        double slope[3];      /* of the control value's function along the axes, by slot */
-    } * tap;
+    size_t used, room; /* numbers of `slope` */
+    double *slope;
 };
 
 /* The map of a surface that is not level, by the splines of the displacements (hill.c). */

@@ -135,6 +135,12 @@ struct sweep {
         void (*keep)(size_t n, real a, const real *one, real b, const real *other, real *out);                       \
         /* out[i] := factor[i] in[i], i < n */                                                                       \
         void (*scale)(size_t n, const real *factor, const real *in, real *out);                                      \
+        /* Slopes along the axes of a component u at a point near an edge, n numbers along each axis. */             \
+        void (*edge_slopes)(const struct edge_taps *of, const double *slope, const size_t n[3],                      \
+                            const real *u, double sum[3]);                                                           \
+        /* What its stresses pull at in a plane of slope[], off rows of forces, over EDGE_LANES columns. */          \
+        void (*edge_pulls)(const struct edge_taps *of, const double *slope, const double pull[3],                    \
+                           size_t stride, real *force);                                                              \
         /* out[p][i] += factor root[p][i] sum over t of weight[p][t] in[p + t][i], p < planes, i < n; what is   \
          * `ahead` numbers on, the next row, is asked for */    \
         void (*finish)(size_t n, size_t planes, const real *weight, const real *const *in, size_t ahead,             \

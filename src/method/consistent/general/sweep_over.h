@@ -146,6 +146,39 @@ static void pulls(bool apart, size_t width, const REAL *const in[PULL_FIELDS],
 
 #include "method/consistent/general/sweep_memory_over.h"
 
+typedef double edge_lanes __attribute__((vector_size(EDGE_LANES * 8), aligned(8), may_alias));
+typedef REAL edge_numbers
+    __attribute__((vector_size(EDGE_LANES * sizeof(REAL)), aligned(sizeof(REAL)), may_alias));
+
+static void edge_slopes(const struct edge_taps *of, const double *slope, const size_t n[3], const REAL *u,
+                        double sum[3])
+{
+    edge_lanes x = {0}, y = {0}, z = {0};
+    for (size_t k = of->plane; k < of->plane + of->planes; k++)
+        for (size_t j = of->row; j < of->row + of->rows; j++, slope += EDGE_ROW) {
+            const REAL *row = u + (k * n[1] + j) * n[0] + of->column;
+            const edge_lanes value = __builtin_convertvector(*(const edge_numbers *)row, edge_lanes),
+                             *of_slot = (const edge_lanes *)slope;
+            x += of_slot[0] * value;
+            y += of_slot[1] * value;
+            z += of_slot[2] * value;
+        }
+    sum[0] = (x[0] + x[2]) + (x[1] + x[3]);
+    sum[1] = (y[0] + y[2]) + (y[1] + y[3]);
+    sum[2] = (z[0] + z[2]) + (z[1] + z[3]);
+}
+
+static void edge_pulls(const struct edge_taps *of, const double *slope, const double pull[3], size_t stride,
+                       REAL *force)
+{
+    const double a = pull[0], b = pull[1], c = pull[2];
+    for (size_t j = of->row; j < of->row + of->rows; j++, slope += EDGE_ROW) {
+        const edge_lanes *const of_slot = (const edge_lanes *)slope;
+        edge_numbers *to = (edge_numbers *)(force + j * stride + of->column);
+        *to -= __builtin_convertvector(a * of_slot[0] + b * of_slot[1] + c * of_slot[2], edge_numbers);
+    }
+}
+
 INLINED void finished(const int planes, size_t n, const REAL *weight, const REAL *const *in, size_t ahead,
                       REAL factor, const REAL *const *root, REAL *const *out)
 {
@@ -200,5 +233,5 @@ static void scale(size_t n, const REAL *restrict factor, const REAL *restrict in
 }
 
 const struct NAME(sweep_kernels) OF_PROCESSOR(NAME(sweep_kernels)) = {
-    bring, depth,  points,   slopes, stresses, slope, stresses_of, pulls_of,
-    pulls, recall, remember, pull,   keep,     scale, finish};
+    bring,  depth,    points, slopes, stresses, slope,       stresses_of, pulls_of, pulls,
+    recall, remember, pull,   keep,   scale,    edge_slopes, edge_pulls,  finish};

@@ -11,8 +11,8 @@ static void clamp_rows(const struct sweep *s, const struct rings *r, size_t k, s
     }
 }
 
-/* The same along x, times root: a row of control values. */
-static void scale_row(const struct sweep *s, size_t component, const REAL *root, REAL *row, REAL *out)
+/* The same along x: a row. */
+static void clamp_row(const struct sweep *s, size_t component, REAL *row)
 {
     const size_t last = s->cells[0] + 1;
     const REAL sign = component == 0 ? -1 : 1;
@@ -20,7 +20,6 @@ static void scale_row(const struct sweep *s, size_t component, const REAL *root,
     row[last - 1] += (s->mirror[0][1] ? sign : -1) * row[last];
     if (!s->mirror[0][0]) row[0] *= 2;
     if (!s->mirror[0][1]) row[last] *= 2;
-    NAME(taken_sweep_kernels)()->scale(s->n[0], root, row + s->low[0], out);
 }
 
 /* Does a point at an edge see anything that moves? If so pairs touch all rows that it sees. */
@@ -41,18 +40,11 @@ static void edge_stress(const struct pass *pass, size_t n, double stress[3][3])
     for (size_t p = 0; p < pass->fields->parts; p++) {
         const struct edges *edges = pass->fields->part[p].ground->edges;
         const struct edge_point *point = &edges->point[n];
-        double slope[3][3] = {{0}};
-        for (size_t component = 0; component < 3; component++) {
-            const struct edge_taps *of = &point->of[component];
-            const struct edge_tap *tap = edges->tap + of->at;
-            const REAL *u = pass->fields->part[p].u + component * s->volume + of->plane * s->plane +
-                            of->row * s->n[0] + of->column;
-            for (size_t k = 0; k < of->planes; k++, u += s->plane)
-                for (size_t t = 0; t < of->each; t++, tap++)
-                    for (int slot = 0; slot < 3; slot++)
-                        slope[component][slot] +=
-                            tap->slope[slot] * (double)u[tap->row * s->n[0] + tap->column];
-        }
+        double slope[3][3];
+        for (size_t component = 0; component < 3; component++)
+            NAME(taken_sweep_kernels)
+        ()->edge_slopes(&point->of[component], edges->slope + point->of[component].at, s->n,
+                        pass->fields->part[p].u + component * s->volume, slope[component]);
         general_edge_stress(point, slope, stress);
     }
 }
@@ -74,24 +66,19 @@ static void make_edges(const struct pass *pass, struct rings *r, size_t k)
     }
 }
 
-/* What they pull at in plane k. */
+/* What they pull at in plane k, off the forces on its control values. */
 static void add_edges(const struct pass *pass, const struct rings *r, size_t k, size_t component)
 {
     const struct sweep *s = pass->s;
     const struct edges *edges = pass->c->general->edges;
-    const REAL *root = (const REAL *)s->root + k * s->plane;
     for (size_t p = less(k, SPAN - 1); edges != NULL && p <= k; p++)
         for (size_t n = edges->start[p]; n < edges->start[p + 1]; n++) {
             const struct edge_taps *of = &edges->point[n].of[component];
             const double *pull = edge_ring(pass, r, p)[n - edges->start[p]][component];
             if (k < of->plane || k >= of->plane + of->planes) continue;
-            const struct edge_tap *tap = edges->tap + of->at + (k - of->plane) * of->each;
-            REAL *scaled = r->scaled + of->row * s->stride + of->column;
-            const REAL *near = root + of->row * s->n[0] + of->column;
-            for (size_t t = 0; t < of->each; t++, tap++)
-                scaled[tap->row * s->stride + tap->column] -=
-                    near[tap->row * s->n[0] + tap->column] *
-                    (REAL)(tap->slope[0] * pull[0] + tap->slope[1] * pull[1] + tap->slope[2] * pull[2]);
+            NAME(taken_sweep_kernels)
+            ()->edge_pulls(of, edges->slope + of->at + (k - of->plane) * of->rows * EDGE_ROW, pull, s->stride,
+                           force_row(s, r, k, component, s->low[1]) + s->low[0]);
         }
 }
 
@@ -170,9 +157,12 @@ static void plane_done(const struct pass *pass, struct rings *r, size_t k)
     for (size_t component = 0; component < 3; component++) {
         clamp_rows(s, r, k, component);
         for (size_t j = rows.from; j < rows.end; j++)
-            scale_row(s, component, (const REAL *)s->root + k * s->plane + j * s->n[0],
-                      force_row(s, r, k, component, j + s->low[1]), r->scaled + j * s->stride);
+            clamp_row(s, component, force_row(s, r, k, component, j + s->low[1]));
         add_edges(pass, r, k, component);
+        for (size_t j = rows.from; j < rows.end; j++)
+            NAME(taken_sweep_kernels)
+        ()->scale(s->n[0], (const REAL *)s->root + k * s->plane + j * s->n[0],
+                  force_row(s, r, k, component, j + s->low[1]) + s->low[0], r->scaled + j * s->stride);
         add_loads(pass, r, k, component);
         add_moments(pass, r, false, component, k, &rows);
         if (!later) add_moments(pass, r, true, component, k, &rows);
