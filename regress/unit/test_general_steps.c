@@ -167,9 +167,11 @@ static void assert_single(bool layers)
     print_message("# %d scenes, 60 steps: u %.1e, v %.1e, memory %.1e, a %.1e; settled %.1e\n", scenes,
                   worst[0], worst[1], worst[MEMORY], worst[ACCELERATION], watched);
     assert_true(worst[0] > 1e-8 && worst[0] < 1e-5); /* as the fused operator's (test_fused_step) */
-    assert_true(worst[1] < 2e-5);
-    assert_true(worst[MEMORY] < 2e-5);
-    assert_true(worst[ACCELERATION] < 2e-5);
+    /* The plain kind rounds products as well as sums. */
+    const double rounding = processor_taken() == PROCESSOR_PLAIN ? sqrt(2) * 2e-5 : 2e-5;
+    assert_true(worst[1] < rounding);
+    assert_true(worst[MEMORY] < rounding);
+    assert_true(worst[ACCELERATION] < rounding);
     assert_true(watched < 1e-6);
 }
 

@@ -13,7 +13,9 @@
 #include <string.h>
 
 enum { ALIGN = 8 };
-enum { EIGHTHS = 8 }; /* values and slopes times the spacing of the functions at knots and middles are whole ones */
+enum {
+    EIGHTHS = 8
+}; /* values and slopes times the spacing of the functions at knots and middles are whole ones */
 
 /* Functions at one place of an axis, in ascending order, without those that are 0; at places that are alike the same
  * bits. */

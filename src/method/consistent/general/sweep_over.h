@@ -9,6 +9,7 @@
 #include <string.h>
 
 typedef REAL lanes __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(REAL)), may_alias));
+typedef NUMBER lanes_number __attribute__((vector_size(VECTOR_BYTES)));
 enum { LANES = VECTOR_BYTES / sizeof(REAL) };
 
 #define UNROLLED _Pragma("GCC unroll 32")
@@ -63,21 +64,23 @@ INLINED lanes slope_across(const bool knots, const REAL *one, const REAL *two, c
     return at(knots ? two : three) - at(one);
 }
 
-/* Along y, of a component: value and slope of the values over depth, value of the slopes. */
-INLINED void along_y(const bool knots, const struct NAME(sweep_row) * row, int component, REAL *restrict a,
-                     REAL *restrict b, REAL *restrict c)
+/* Along y from number i on, of a component: value and slope of the values over depth, value of the slopes. */
+INLINED void group_along_y(const bool knots, const struct NAME(sweep_row) * row, int component, size_t i,
+                           lanes out[3])
 {
-    const size_t at_value = (size_t)(component * DEPTH_FIELDS + row->field) * row->stride;
-    const REAL *restrict v0 = row->in[0] + at_value, *restrict v1 = row->in[1] + at_value,
-                         *restrict v2 = row->in[2] + at_value;
-    const REAL *restrict s0 = v0 + row->stride, *restrict s1 = v1 + row->stride,
-                         *restrict s2 = v2 + row->stride;
+    const size_t place = (size_t)(component * DEPTH_FIELDS + row->field) * row->stride + i,
+                 deep = place + row->stride;
+    out[0] = value_across(knots, row->in[0] + place, row->in[1] + place, row->in[2] + place);
+    out[1] = slope_across(knots, row->in[0] + place, row->in[1] + place, row->in[2] + place);
+    out[2] = value_across(knots, row->in[0] + deep, row->in[1] + deep, row->in[2] + deep);
+}
+
+INLINED void along_y(const bool knots, const struct NAME(sweep_row) * row, int component, REAL *restrict out)
+{
     for (size_t i = 0; i < row->width; i += LANES) {
-        const lanes value = value_across(knots, v0 + i, v1 + i, v2 + i),
-                    slope = slope_across(knots, v0 + i, v1 + i, v2 + i);
-        put(a + i, value);
-        put(b + i, slope);
-        put(c + i, value_across(knots, s0 + i, s1 + i, s2 + i));
+        lanes group[3];
+        group_along_y(knots, row, component, i, group);
+        UNROLLED for (size_t n = 0; n < 3; n++) put(out + n * row->stride + i, group[n]);
     }
 }
 

@@ -15,62 +15,58 @@ INLINED lanes strain_of(const bool knots, const bool made, REAL factor, const RE
     return factor * value_of(knots, row);
 }
 
-INLINED void level_stresses(const bool knots, const bool made, const bool more,
-                            const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
+/* Stresses of a group of points from their slopes, [component][slot] along the lattice; below a surface that is not
+ * level slopes along the axes (G17), and what pulls along the lattice's depth in the place of zz. */
+INLINED void stress_of(const bool hilly, const struct NAME(sweep_row) * row, size_t i, lanes slope[3][3],
+                       lanes stress[STRESS_ROOM])
 {
-    const size_t stride = row->stride, width = row->width;
-    const REAL x = row->factor[0], y = row->factor[1], z = row->factor[2], *lambda = row->lambda,
-               *shear = row->mu;
-#define AT(component, slot) (in + (3 * (component) + (slot)) * stride + i)
-    for (size_t i = 0; i < width; i += LANES) {
-        const lanes exx = strain_x(knots, made, x, AT(0, 0)), eyy = strain_of(knots, made, y, AT(1, 1)),
-                    ezz = strain_of(knots, made, z, AT(2, 2)), mu = at(shear + i), twice = mu + mu,
-                    pressure = at(lambda + i) * (exx + eyy + ezz);
-        put_or_add(more, out + XX * stride + i, pressure + twice * exx);
-        put_or_add(more, out + YY * stride + i, pressure + twice * eyy);
-        put_or_add(more, out + ZZ * stride + i, pressure + twice * ezz);
-        put_or_add(more, out + YZ * stride + i,
-                   mu * (strain_of(knots, made, z, AT(1, 2)) + strain_of(knots, made, y, AT(2, 1))));
-        put_or_add(more, out + ZX * stride + i,
-                   mu * (strain_of(knots, made, z, AT(0, 2)) + strain_x(knots, made, x, AT(2, 0))));
-        put_or_add(more, out + XY * stride + i,
-                   mu * (strain_of(knots, made, y, AT(0, 1)) + strain_x(knots, made, x, AT(1, 0))));
-    }
-}
-
-/* Below a surface that is not level: slopes along the axes (G17), and what pulls along the lattice's depth. */
-INLINED void tilted_stresses(const bool knots, const bool made, const bool more,
-                             const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
-{
-    const struct NAME(sweep_hill) hill = *row->hill;
-    const size_t stride = row->stride, width = row->width;
-    const REAL factor[3] = {row->factor[0], row->factor[1], row->factor[2]}, *lambda = row->lambda,
-               *shear = row->mu;
-    for (size_t i = 0; i < width; i += LANES) {
-        const lanes up = 1 / (1 + hill.fall * at(hill.drop + i)),
-                    one = hill.share * at(hill.slope[0] + i) * up,
-                    two = hill.share * at(hill.slope[1] + i) * up;
-        lanes x[3], y[3], z[3];
+    lanes up = {0}, one = up, two = up;
+    if (hilly) {
+        const struct NAME(sweep_hill) *hill = row->hill;
+        up = 1 / (1 + hill->fall * at(hill->drop + i));
+        one = hill->share * at(hill->slope[0] + i) * up;
+        two = hill->share * at(hill->slope[1] + i) * up;
         UNROLLED for (size_t c = 0; c < 3; c++)
         {
-            const lanes down = strain_of(knots, made, factor[2], AT(c, 2));
-            x[c] = strain_x(knots, made, factor[0], AT(c, 0)) - one * down;
-            y[c] = strain_of(knots, made, factor[1], AT(c, 1)) - two * down;
-            z[c] = up * down;
+            const lanes down = slope[c][2];
+            slope[c][0] -= one * down;
+            slope[c][1] -= two * down;
+            slope[c][2] = up * down;
         }
-        const lanes mu = at(shear + i), twice = mu + mu, pressure = at(lambda + i) * (x[0] + y[1] + z[2]);
-        const lanes xx = pressure + twice * x[0], yy = pressure + twice * y[1], zz = pressure + twice * z[2];
-        const lanes yz = mu * (z[1] + y[2]), zx = mu * (z[0] + x[2]), xy = mu * (y[0] + x[1]);
-        put_or_add(more, out + XX * stride + i, xx);
-        put_or_add(more, out + YY * stride + i, yy);
-        put_or_add(more, out + YZ * stride + i, yz);
-        put_or_add(more, out + ZX * stride + i, zx);
-        put_or_add(more, out + XY * stride + i, xy);
-        put_or_add(more, out + DEPTH_X * stride + i, up * zx - one * xx - two * xy);
-        put_or_add(more, out + DEPTH_Y * stride + i, up * yz - one * xy - two * yy);
-        put_or_add(more, out + DEPTH_Z * stride + i, up * zz - one * zx - two * yz);
     }
-#undef AT
+    const lanes mu = at(row->mu + i), twice = mu + mu,
+                pressure = at(row->lambda + i) * (slope[0][0] + slope[1][1] + slope[2][2]);
+    stress[XX] = pressure + twice * slope[0][0];
+    stress[YY] = pressure + twice * slope[1][1];
+    stress[ZZ] = pressure + twice * slope[2][2];
+    stress[YZ] = mu * (slope[1][2] + slope[2][1]);
+    stress[ZX] = mu * (slope[0][2] + slope[2][0]);
+    stress[XY] = mu * (slope[0][1] + slope[1][0]);
+    if (!hilly) return;
+    stress[DEPTH_X] = up * stress[ZX] - one * stress[XX] - two * stress[XY];
+    stress[DEPTH_Y] = up * stress[YZ] - one * stress[XY] - two * stress[YY];
+    stress[DEPTH_Z] = up * stress[ZZ] - one * stress[ZX] - two * stress[YZ];
+}
+
+/* Rows of them from rows of what is along y. */
+INLINED void rows_of_stresses(const bool hilly, const bool knots, const bool made, const bool more,
+                              const struct NAME(sweep_row) * row, const REAL *in, REAL *out)
+{
+    const size_t stride = row->stride, width = row->width;
+    const REAL factor[3] = {row->factor[0], row->factor[1], row->factor[2]};
+    for (size_t i = 0; i < width; i += LANES) {
+        lanes slope[3][3], stress[STRESS_ROOM];
+        UNROLLED for (size_t c = 0; c < 3; c++)
+        {
+            const REAL *from = in + 3 * c * stride + i;
+            slope[c][0] = strain_x(knots, made, factor[0], from);
+            slope[c][1] = strain_of(knots, made, factor[1], from + stride);
+            slope[c][2] = strain_of(knots, made, factor[2], from + 2 * stride);
+        }
+        stress_of(hilly, row, i, slope, stress);
+        UNROLLED for (size_t p = 0; p < STRESS_ROOM; p++) if (p < STRESSES || hilly)
+            put_or_add(more, out + p * stride + i, stress[p]);
+    }
 }
 
 #define VALUE_AT(row) (knots ? (row)[i] + (row)[i + 1] : 6 * (row)[i + 1] + ((row)[i] + (row)[i + 2]))
@@ -116,48 +112,65 @@ INLINED void other_stresses(const bool knots, const bool made, const bool more,
         }
 }
 
-/* Back along x, then along y: what stresses x, y, z of a component pull at; `apart`: those of y go into rows of their
- * own. */
+/* Rows of pulls of a component, of values and of slopes, and where those along y are kept apart. */
+struct pull_rows {
+    REAL *value[SPAN], *slope[SPAN], *across[SPAN];
+};
+
+INLINED struct pull_rows pull_rows_of(const struct NAME(sweep_row) * row, int component)
+{
+    const size_t first = (size_t)(component * PULL_FIELDS) * row->stride,
+                 field = first + (size_t)row->field * row->stride,
+                 across = first + (size_t)row->across * row->stride;
+    struct pull_rows rows;
+    UNROLLED for (size_t d = 0; d < SPAN; d++)
+    {
+        rows.value[d] = row->out[d] + field;
+        rows.slope[d] = rows.value[d] + row->stride;
+        rows.across[d] = row->out[d] + across;
+    }
+    return rows;
+}
+
+/* Back along y from number i on: what stresses x, y, z of a component pull at, back along x; `apart`: those of y go
+ * into rows of their own. */
+INLINED void pull_along_y(const bool knots, const bool apart, const struct pull_rows *to, size_t i, lanes one,
+                          lanes two, lanes three)
+{
+    lanes both = one, less = one;
+    if (!apart) {
+        both += two;
+        less -= two;
+    }
+    put(to->value[0] + i, at(to->value[0] + i) + less);
+    put(to->slope[0] + i, at(to->slope[0] + i) + three);
+    if (knots) {
+        put(to->value[1] + i, at(to->value[1] + i) + both);
+        put(to->slope[1] + i, at(to->slope[1] + i) + three);
+    } else {
+        put(to->value[1] + i, at(to->value[1] + i) + 6 * one);
+        put(to->slope[1] + i, at(to->slope[1] + i) + 6 * three);
+        put(to->value[2] + i, both);
+        put(to->slope[2] + i, three);
+    }
+    if (!apart) return;
+    put(to->across[0] + i, at(to->across[0] + i) - two);
+    if (knots)
+        put(to->across[1] + i, at(to->across[1] + i) + two);
+    else
+        put(to->across[2] + i, two);
+}
+
 INLINED void pulls_back(const bool x_knots, const bool y_knots, const bool apart,
                         const struct NAME(sweep_row) * row, int component, const REAL *restrict x,
                         const REAL *restrict y, const REAL *restrict z)
 {
-    const size_t stride = row->stride, first = (size_t)(component * PULL_FIELDS) * stride;
-    const size_t at_pull = first + (size_t)row->field * stride, across = first + (size_t)row->across * stride;
-    REAL *restrict p0 = row->out[0] + at_pull, *restrict p1 = row->out[1] + at_pull,
-                   *restrict p2 = row->out[2] + at_pull;
-    REAL *restrict s0 = p0 + stride, *restrict s1 = p1 + stride, *restrict s2 = p2 + stride;
-    REAL *restrict a0 = row->out[0] + across, *restrict a1 = row->out[1] + across,
-                   *restrict a2 = row->out[2] + across;
+    const struct pull_rows to = pull_rows_of(row, component);
     const REAL factor[3] = {row->factor[0], row->factor[1], row->factor[2]};
     const size_t width = row->width;
-    for (size_t i = 0; i < width; i += LANES) {
-        const lanes one = factor[0] * slope_pull(x_knots, x + i),
-                    two = factor[1] * value_pull(x_knots, y + i),
-                    three = factor[2] * value_pull(x_knots, z + i);
-        lanes both = one, less = one;
-        if (!apart) {
-            both += two;
-            less -= two;
-        }
-        put(p0 + i, at(p0 + i) + less);
-        put(s0 + i, at(s0 + i) + three);
-        if (y_knots) {
-            put(p1 + i, at(p1 + i) + both);
-            put(s1 + i, at(s1 + i) + three);
-        } else {
-            put(p1 + i, at(p1 + i) + 6 * one);
-            put(s1 + i, at(s1 + i) + 6 * three);
-            put(p2 + i, both);
-            put(s2 + i, three);
-        }
-        if (!apart) continue;
-        put(a0 + i, at(a0 + i) - two);
-        if (y_knots)
-            put(a1 + i, at(a1 + i) + two);
-        else
-            put(a2 + i, two);
-    }
+    for (size_t i = 0; i < width; i += LANES)
+        pull_along_y(y_knots, apart, &to, i, factor[0] * slope_pull(x_knots, x + i),
+                     factor[1] * value_pull(x_knots, y + i), factor[2] * value_pull(x_knots, z + i));
 }
 
 INLINED void slopes_of(const bool x_knots, const bool y_knots, const struct NAME(sweep_row) * row)
@@ -165,7 +178,7 @@ INLINED void slopes_of(const bool x_knots, const bool y_knots, const struct NAME
     const size_t stride = row->stride, width = row->width;
     for (int c = 0; c < 3; c++) {
         REAL *x = row->scratch + (size_t)(3 * c) * stride, *y = x + stride, *z = y + stride;
-        along_y(y_knots, row, c, x, y, z);
+        along_y(y_knots, row, c, x);
         for (size_t i = 0; i < width; i += LANES) {
             put(x + i, row->factor[0] * slope_of(x_knots, x + i));
             put(y + i, row->factor[1] * value_of(x_knots, y + i));
@@ -196,12 +209,12 @@ INLINED void stresses_at(const bool x_knots, const bool y_knots, const bool made
     REAL *in = row->scratch, *out = in + 9 * stride;
     for (int c = 0; c < 3 && !made; c++) {
         REAL *rows = in + (size_t)(3 * c) * stride;
-        along_y(y_knots, row, c, rows, rows + stride, rows + 2 * stride);
+        along_y(y_knots, row, c, rows);
     }
     if (row->hill != NULL)
-        tilted_stresses(x_knots, made, more, row, in, out);
+        rows_of_stresses(true, x_knots, made, more, row, in, out);
     else
-        level_stresses(x_knots, made, more, row, in, out);
+        rows_of_stresses(false, x_knots, made, more, row, in, out);
     if (row->runs > 0) other_stresses(x_knots, made, more, row, in, out);
 }
 
@@ -226,6 +239,83 @@ INLINED void points_of(const bool x_knots, const bool y_knots, const bool made,
     pulls_at(x_knots, y_knots, made, row);
 }
 
+/* LANES numbers from number s of the first vector on. */
+INLINED lanes shifted(const int s, lanes one, lanes two)
+{
+#if defined(__GNUC__) && !defined(__clang__) /* it does not see one instruction in the loop */
+    lanes_number number;
+    UNROLLED for (int lane = 0; lane < LANES; lane++) number[lane] = lane + s;
+    return __builtin_shuffle(one, two, number);
+#else
+    lanes both;
+    UNROLLED for (int lane = 0; lane < LANES; lane++) both[lane] =
+        lane + s < LANES ? one[lane + s] : two[lane + s - LANES];
+    return both;
+#endif
+}
+
+/* Without their factors, of three numbers along x from those of the group and of the next, and back from those of the
+ * group and of that before. */
+INLINED lanes value_ahead(const bool knots, lanes own, lanes next)
+{
+    const lanes one = shifted(1, own, next);
+    return knots ? own + one : 6 * one + (own + shifted(2, own, next));
+}
+
+INLINED lanes slope_ahead(const bool knots, lanes own, lanes next)
+{
+    return shifted(knots ? 1 : 2, own, next) - own;
+}
+
+INLINED lanes value_behind(const bool knots, lanes before, lanes own)
+{
+    const lanes one = shifted(LANES - 1, before, own);
+    return knots ? one + own : 6 * one + (shifted(LANES - 2, before, own) + own);
+}
+
+INLINED lanes slope_behind(const bool knots, lanes before, lanes own)
+{
+    return shifted(LANES - (knots ? 1 : 2), before, own) - own;
+}
+
+/* All at once: nothing goes through rows but values over depth and pulls. Vectors of two numbers wait longer for their
+ * registers than for those rows. */
+INLINED void points_at_once(const bool x_knots, const bool y_knots, const bool hilly,
+                            const struct NAME(sweep_row) * row)
+{
+    static const int of[3][3] = {{XX, XY, ZX}, {XY, YY, YZ}, {ZX, YZ, ZZ}};
+    const REAL factor[3] = {row->factor[0], row->factor[1], row->factor[2]};
+    const size_t width = row->width;
+    struct pull_rows to[3];
+    lanes next[3][3], before[STRESS_ROOM] = {{0}};
+    UNROLLED for (int c = 0; c < 3; c++)
+    {
+        to[c] = pull_rows_of(row, c);
+        group_along_y(y_knots, row, c, 0, next[c]);
+    }
+    for (size_t i = 0; i < width; i += LANES) {
+        lanes slope[3][3], stress[STRESS_ROOM];
+        UNROLLED for (int c = 0; c < 3; c++)
+        {
+            lanes ahead[3];
+            group_along_y(y_knots, row, c, i + LANES, ahead);
+            slope[c][0] = factor[0] * slope_ahead(x_knots, next[c][0], ahead[0]);
+            slope[c][1] = factor[1] * value_ahead(x_knots, next[c][1], ahead[1]);
+            slope[c][2] = factor[2] * value_ahead(x_knots, next[c][2], ahead[2]);
+            UNROLLED for (int slot = 0; slot < 3; slot++) next[c][slot] = ahead[slot];
+        }
+        stress_of(hilly, row, i, slope, stress);
+        UNROLLED for (int c = 0; c < 3; c++)
+        {
+            const int x = of[c][0], y = of[c][1], z = hilly ? DEPTH_X + c : of[c][2];
+            pull_along_y(y_knots, false, &to[c], i, factor[0] * slope_behind(x_knots, before[x], stress[x]),
+                         factor[1] * value_behind(x_knots, before[y], stress[y]),
+                         factor[2] * value_behind(x_knots, before[z], stress[z]));
+        }
+        UNROLLED for (int p = 0; p < STRESS_ROOM; p++) if (p != ZZ || !hilly) before[p] = stress[p];
+    }
+}
+
 /* FUNCTION(x_knots, y_knots, more words) of a row. */
 #define BY_KNOTS(FUNCTION, ...)                                                                              \
     if (row->x_knots)                                                                                        \
@@ -237,7 +327,13 @@ INLINED void points_of(const bool x_knots, const bool y_knots, const bool made,
 
 static void points(const struct NAME(sweep_row) * row)
 {
-    BY_KNOTS(points_of, false, row)
+    if (row->runs > 0 || VECTOR_BYTES < 32) {
+        BY_KNOTS(points_of, false, row)
+    } else if (row->hill != NULL) {
+        BY_KNOTS(points_at_once, true, row)
+    } else {
+        BY_KNOTS(points_at_once, false, row)
+    }
 }
 
 static void slopes(const struct NAME(sweep_row) * row)
