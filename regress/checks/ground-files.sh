@@ -43,8 +43,19 @@ model ""
 "$build/selas" -q "$out/d.nml" output%directory="$out/model" && "$build/selas" -q "$out/even.nml" body%material=rock output%directory="$out/even" output%plots=F
 "$build/selas" diff "$out/model/r.dat" "$out/even/r.dat" --rtol=1e-9 >"$out/log" 2>&1
 ok "an even model: the histories of an even body" test $? = 0
+# 41 x 3 x 9 values, all rows back to front, of which every 16th has its place kept
+awk 'BEGIN {
+    print "2000 2000 0 0 0 -1000"; print "-50 -1000 -125"; print "41 3 9"; print "100 9000 100 9000 100 9000"
+    for (k = 0; k < 9; k++) for (j = 0; j < 3; j++) for (i = 0; i < 41; i++)
+        print 2000 - 50 * i, 2000 - 1000 * j, -125 * k, 3000 + 7 * ((i * i + 3 * j + k) % 11), 1700 + (i * k + j) % 13, 2500
+}' >"$out/back.xyz"
+for kept in 0 1e6; do SELAS_MODEL_KEPT=$kept "$build/selas" -q "$out/d.nml" model%file=back.xyz output%plots=F output%directory="$out/back$kept"; done
+ok "a text in pieces: the histories of the whole one" cmp -s "$out/back0/r.dat" "$out/back1e6/r.dat"
+ok "its pieces are those of the report" says "$out/back0/report.txt" "ground values read for the lattice: 26568 of 26568 bytes"
 in_pieces() { SELAS_MODEL_KEPT=0 "$build/test/test_model_files" >"$out/log" 2>&1; }
 [ ! -x "$build/test/test_model_files" ] || ok "models in pieces: values, faults and air as of whole ones" in_pieces
+little() { (ulimit -v 110000 && "$build/test/test_model_memory") >"$out/log" 2>&1; }
+[ ! -x "$build/test/test_model_memory" ] || [ -n "${SELAS_SANITIZED:-}" ] || ok "a model of 180 MB in a process of 110 MB" little
 ok "a run on ground from a file draws it" test -s "$out/model/ground.png"
 ok "the plan says how depth is taken" says "$out/model/report.txt" "depth 0 is its elevation 0"
 

@@ -45,7 +45,7 @@ double ground_model_height(const struct ground_model *model, const double place[
 double ground_model_step(const struct ground_model *model);
 /* Lets go of what is kept of grids that are read in pieces; no other thread asks for values meanwhile. Takes NULL. */
 void ground_model_forget(const struct ground_model *model);
-/* Bytes of values that are kept of them, and of all their values. Takes NULL. */
+/* Bytes of values that were asked for of them since then, and of all their values. Takes NULL. */
 void ground_model_bytes(const struct ground_model *model, double bytes[2]);
 /* False: values that were asked for could not be read (or had no memory). Takes NULL. */
 bool ground_model_sound(const struct ground_model *model);

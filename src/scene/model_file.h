@@ -23,7 +23,6 @@ struct model_source {
     bool below_sea;     /* formats that know their ground: read it with depth = 'sea' */
     double none;        /* s_speed of air and water is at most that; NAN: there is none (the reader) */
     size_t filled;      /* values of air or water that took those of the rock below */
-    bool plainly;       /* the format is read in one go: all grids are kept whole */
     double kept;        /* bytes of values that are kept whole */
     double whole[3][2]; /* first and last place in the file along each axis of the last grid */
     double end;         /* model_meets() */

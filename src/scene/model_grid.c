@@ -46,7 +46,10 @@ void model_grid_at(const struct model_grid *grid, const double place[3], int set
         at[axis] = before(grid->at[axis], grid->n[axis], place[axis], &part[axis]);
     for (int set = 0; set < sets; set++)
         value[set] = 0;
-    if (grid->pieces != NULL) piece = model_pieces_at(grid, at);
+    if (grid->pieces != NULL) {
+        model_pieces_look(grid);
+        piece = model_pieces_at(grid, at);
+    }
     for (unsigned corner = 0; corner < 8; corner++) {
         size_t index = 0, up[3], stride;
         double weight = 1;
@@ -66,6 +69,7 @@ void model_grid_at(const struct model_grid *grid, const double place[3], int set
                 value[set] += weight * grid->value[set][index];
         }
     }
+    if (grid->pieces != NULL) model_pieces_looked(grid);
 }
 
 static double surface_at(const struct ground_model *model, size_t i, const double place[3])
@@ -245,7 +249,7 @@ void ground_model_bytes(const struct ground_model *model, double bytes[2])
     for (size_t i = 0; model != NULL && i < model->grids; i++) {
         const struct model_grid *grid = &model->grid[i];
         if (grid->pieces == NULL) continue;
-        bytes[0] += (double)model_pieces_bytes(grid);
+        bytes[0] += (double)model_pieces_asked(grid);
         bytes[1] += (double)(grid->n[0] * grid->n[1] * grid->n[2] * sizeof(double)) *
                     (model->damped ? MODEL_SETS : MODEL_VALUES);
     }

@@ -4,22 +4,43 @@
 #include "base/memory.h"
 
 #include <math.h>
+#include <omp.h>
+#include <sched.h>
+#include <stdlib.h>
 
 /* Values of a piece along the axes: few over depth, across which ranks share a lattice. */
 static const size_t extent[3] = {16, 16, 8};
-/* Bytes of a box of model_walk(), if that has one column at least. */
-enum { BOX_BYTES = 8 << 20 };
+/* Bytes of a box of model_walk(), if that has one column at least; of the pieces that are kept, if those are not fewer
+ * than LAYERS layers over depth, which lattices ask for from the top down; threads that are told apart. */
+enum { BOX_BYTES = 8 << 20, KEPT_BYTES = 8 << 20, LAYERS = 3, READERS = 64 };
+
+/* How many threads that share its number look at values: alone on its cache line. */
+struct reader {
+    int now;
+    char line[64 - sizeof(int)];
+};
+
+/* In place of a piece that was let go of. */
+static double gone[1];
 
 struct model_pieces {
     struct model_origin origin;
     size_t count[3];
-    double **piece; /* [count[0] count[1] count[2]], each [sets][values] */
-    double *other;  /* in their place where they cannot be read */
-    size_t bytes;
-    bool broken;
+    double **piece;     /* [count[0] count[1] count[2]], each [sets][values] */
+    double *other;      /* in their place where they cannot be read */
+    size_t bytes, most; /* of pieces that are kept; when they are let go of */
+    size_t read;        /* of pieces that were asked for */
+    bool broken, letting_go;
+    struct reader reader[READERS];
     unsigned *rock;
     double *fill;
 };
+
+double model_pieces_kept(double most)
+{
+    const char *bytes = getenv("SELAS_MODEL_KEPT");
+    return bytes != NULL ? strtod(bytes, NULL) : most;
+}
 
 bool model_pieces_new(struct model_grid *grid, const struct model_origin *origin)
 {
@@ -33,6 +54,9 @@ bool model_pieces_new(struct model_grid *grid, const struct model_origin *origin
         pieces->piece = array_new(all, sizeof *pieces->piece);
         pieces->other = array_new((size_t)origin->sets * extent[0] * extent[1] * extent[2], sizeof(double));
         pieces->origin = *origin;
+        pieces->most = (size_t)fmax(model_pieces_kept(KEPT_BYTES),
+                                    (double)(LAYERS * extent[2] * grid->n[0] * grid->n[1] * sizeof(double)) *
+                                        origin->sets);
     }
     if (pieces == NULL || pieces->piece == NULL || pieces->other == NULL) {
         if (pieces != NULL) array_free(pieces->piece);
@@ -46,15 +70,54 @@ bool model_pieces_new(struct model_grid *grid, const struct model_origin *origin
     return true;
 }
 
+static void let_go(struct model_pieces *pieces, double *left)
+{
+    for (size_t i = 0; i < pieces->count[0] * pieces->count[1] * pieces->count[2]; i++) {
+        double **piece = &pieces->piece[i];
+        const bool own = *piece != NULL && *piece != gone && *piece != pieces->other;
+        if (own) array_free(*piece);
+        if (own || left == NULL) *piece = left;
+    }
+    __atomic_store_n(&pieces->bytes, 0, __ATOMIC_RELAXED);
+}
+
 void model_pieces_forget(const struct model_grid *grid)
 {
-    struct model_pieces *pieces = grid->pieces;
-    if (pieces == NULL) return;
-    for (size_t i = 0; i < pieces->count[0] * pieces->count[1] * pieces->count[2]; i++) {
-        if (pieces->piece[i] != pieces->other) array_free(pieces->piece[i]);
-        pieces->piece[i] = NULL;
+    if (grid->pieces == NULL) return;
+    let_go(grid->pieces, NULL);
+    grid->pieces->read = 0;
+}
+
+/* Lets go of all pieces, when no thread looks at one. */
+static void make_room(struct model_pieces *pieces)
+{
+#pragma omp critical(selas_model_room)
+    if (__atomic_load_n(&pieces->bytes, __ATOMIC_RELAXED) > pieces->most) {
+        __atomic_store_n(&pieces->letting_go, true, __ATOMIC_SEQ_CST);
+        for (size_t i = 0; i < READERS; i++)
+            while (__atomic_load_n(&pieces->reader[i].now, __ATOMIC_SEQ_CST) > 0)
+                sched_yield();
+        let_go(pieces, gone);
+        __atomic_store_n(&pieces->letting_go, false, __ATOMIC_SEQ_CST);
     }
-    pieces->bytes = 0;
+}
+
+void model_pieces_look(const struct model_grid *grid)
+{
+    struct model_pieces *pieces = grid->pieces;
+    int *now = &pieces->reader[omp_get_thread_num() % READERS].now;
+    if (__atomic_load_n(&pieces->bytes, __ATOMIC_RELAXED) > pieces->most) make_room(pieces);
+    __atomic_fetch_add(now, 1, __ATOMIC_SEQ_CST);
+    while (__atomic_load_n(&pieces->letting_go, __ATOMIC_SEQ_CST)) {
+        __atomic_fetch_sub(now, 1, __ATOMIC_SEQ_CST);
+        sched_yield();
+        __atomic_fetch_add(now, 1, __ATOMIC_SEQ_CST);
+    }
+}
+
+void model_pieces_looked(const struct model_grid *grid)
+{
+    __atomic_fetch_sub(&grid->pieces->reader[omp_get_thread_num() % READERS].now, 1, __ATOMIC_RELEASE);
 }
 
 void model_pieces_free(struct model_grid *grid)
@@ -76,9 +139,9 @@ void *model_pieces_context(const struct model_grid *grid)
     return grid->pieces->origin.context;
 }
 
-size_t model_pieces_bytes(const struct model_grid *grid)
+size_t model_pieces_asked(const struct model_grid *grid)
 {
-    return grid->pieces != NULL ? grid->pieces->bytes : 0;
+    return grid->pieces != NULL ? grid->pieces->read : 0;
 }
 
 bool model_pieces_broken(const struct model_grid *grid)
@@ -131,7 +194,8 @@ static struct model_grid box_at(const struct model_grid *grid, const size_t firs
     return box;
 }
 
-static double *read_piece(const struct model_grid *grid, const size_t number[3])
+/* `again`: it was let go of. */
+static double *read_piece(const struct model_grid *grid, const size_t number[3], bool again)
 {
     struct model_pieces *pieces = grid->pieces;
     size_t first[3];
@@ -143,7 +207,9 @@ static double *read_piece(const struct model_grid *grid, const size_t number[3])
     if (value != NULL) {
         box = box_at(grid, first, extent, value);
         if (model_pieces_read(grid, &box, first)) {
-            pieces->bytes += values * (size_t)pieces->origin.sets * sizeof *value;
+            const size_t bytes = values * (size_t)pieces->origin.sets * sizeof *value;
+            __atomic_fetch_add(&pieces->bytes, bytes, __ATOMIC_RELAXED);
+            if (!again) pieces->read += bytes;
             return value;
         }
         array_free(value);
@@ -171,11 +237,11 @@ struct model_piece model_pieces_at(const struct model_grid *grid, const size_t a
     found.step[0] = n[1] * n[2];
     double **piece = &pieces->piece[index];
     found.value = __atomic_load_n(piece, __ATOMIC_ACQUIRE);
-    if (found.value == NULL) {
+    if (found.value == NULL || found.value == gone) {
 #pragma omp critical(selas_model)
         {
-            if (*piece == NULL) {
-                double *made = read_piece(grid, number);
+            if (*piece == NULL || *piece == gone) {
+                double *made = read_piece(grid, number, *piece == gone);
                 __atomic_store_n(piece, made, __ATOMIC_RELEASE);
             }
             found.value = *piece;
@@ -189,7 +255,7 @@ bool model_walk(const struct model_grid *grid, model_visit *visit, void *context
 {
     if (grid->pieces == NULL) return visit(context, grid, 0);
     const size_t sets = (size_t)grid->pieces->origin.sets;
-    size_t columns = BOX_BYTES / (grid->n[2] * sets * sizeof(double)) + 1;
+    size_t columns = (size_t)model_pieces_kept(BOX_BYTES) / (grid->n[2] * sets * sizeof(double)) + 1;
     if (columns > grid->n[0] * grid->n[1]) columns = grid->n[0] * grid->n[1];
     const size_t most[3] = {columns > grid->n[1] ? columns / grid->n[1] : 1,
                             columns > grid->n[1] ? grid->n[1] : columns, grid->n[2]};

@@ -1,5 +1,5 @@
-/* Values of a model's grid that are not kept whole (doc/developers/ranks.md): pieces of it are read when they are first
- * asked for, and kept. What looks at all values goes through the grid box by box. */
+/* Values of a model's grid that are not kept whole (doc/developers/ranks.md): pieces of it are read when they are asked
+ * for, and kept until they are many. What looks at all values goes through the grid box by box. */
 #ifndef SELAS_SCENE_MODEL_PIECES_H
 #define SELAS_SCENE_MODEL_PIECES_H
 
@@ -28,12 +28,17 @@ struct model_piece {
     const double *value;
     size_t step[4], left[3];
 };
-/* Any thread may ask. Where they cannot be read, some of a rock, and ground_model_sound() says so. */
+/* Any thread may ask, between model_pieces_look() and model_pieces_looked(): meanwhile nothing is let go of. Where they
+ * cannot be read, some of a rock, and ground_model_sound() says so. */
 struct model_piece model_pieces_at(const struct model_grid *grid, const size_t at[3]);
+void model_pieces_look(const struct model_grid *grid);
+void model_pieces_looked(const struct model_grid *grid);
 /* Lets go of what is kept; no other thread asks meanwhile. */
 void model_pieces_forget(const struct model_grid *grid);
-/* Bytes that are kept. */
-size_t model_pieces_bytes(const struct model_grid *grid);
+/* Bytes of all pieces that were asked for since then. */
+size_t model_pieces_asked(const struct model_grid *grid);
+/* Bytes that may be kept: `most`, or what tests ask for (SELAS_MODEL_KEPT). */
+double model_pieces_kept(double most);
 /* Was there anything that could not be read? */
 bool model_pieces_broken(const struct model_grid *grid);
 

@@ -3,7 +3,6 @@
 #include "scene/model_file.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 bool model_grids(struct model_source *source, size_t grids, size_t surfaces)
@@ -57,12 +56,8 @@ bool model_even_part(struct model_source *source, struct model_grid *grid, int a
     return good;
 }
 
-/* Bytes of values that are kept whole. Tests ask for fewer. */
-static double kept_at_most(void)
-{
-    const char *bytes = getenv("SELAS_MODEL_KEPT");
-    return bytes != NULL ? strtod(bytes, NULL) : 32 << 20;
-}
+/* Bytes of values that are kept whole. */
+enum { WHOLE_BYTES = 32 << 20 };
 
 bool model_room(struct model_source *source, struct model_grid *grid, int sets)
 {
@@ -71,9 +66,9 @@ bool model_room(struct model_source *source, struct model_grid *grid, int sets)
         grid->at[2] = scene_array(source->builder, 1, sizeof *grid->at[2]);
     }
     const double count = (double)grid->n[0] * (double)grid->n[1] * (double)grid->n[2];
-    if (grid->value[0] == NULL && !source->plainly && sets > 1) {
+    if (grid->value[0] == NULL && sets > 1) {
         source->kept += (double)sets * sizeof(double) * count;
-        if (source->kept > kept_at_most()) return true;
+        if (source->kept > model_pieces_kept(WHOLE_BYTES)) return true;
     }
     for (int set = 0; set < sets; set++) {
         if (grid->value[set] != NULL) continue;
@@ -112,9 +107,6 @@ bool model_unread(const struct model_source *source)
 
 /* --- Air and water --- */
 
-/* Bytes of pieces of the grid below that are kept meanwhile. */
-enum { BELOW_BYTES = 32 << 20 };
-
 /* A grid while its air becomes rock. */
 struct filling {
     struct model_source *source;
@@ -131,9 +123,7 @@ static bool rock_below(const struct filling *filling, const struct model_grid *b
     const struct ground_model *model = filling->source->model;
     if (filling->number + 1 == model->grids) return false;
     const double place[3] = {box->at[0][column / box->n[1]], box->at[1][column % box->n[1]], -INFINITY};
-    const struct model_grid *below = &model->grid[filling->number + 1];
-    if (model_pieces_bytes(below) > BELOW_BYTES) model_pieces_forget(below);
-    model_grid_at(below, place, filling->sets, value);
+    model_grid_at(&model->grid[filling->number + 1], place, filling->sets, value);
     return true;
 }
 

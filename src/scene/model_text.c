@@ -10,11 +10,12 @@
 #include <math.h>
 #include <string.h>
 
-enum { COLUMNS = 8 };
+enum { COLUMNS = 8, APART = 16 };
 
 struct text {
-    struct model_source *source;
+    struct model_source *source; /* NULL: values are read again, and nothing is told */
     FILE *file;
+    off_t *mark; /* of a grid in pieces: where every 16th line of each row over x begins; else NULL */
     size_t line, clipped;
     double origin[3], step[3], bound[6]; /* steps may lead back: z upward or downward */
     size_t n[3], first[3];
@@ -30,7 +31,8 @@ static int next_numbers(struct text *text, double value[COLUMNS])
         text->line++;
         if (found == LINE_END) return 0;
         if (found != LINE_READ) {
-            model_fault(text->source, "line %zu: %s", text->line, line_fault(found));
+            if (text->source != NULL)
+                model_fault(text->source, "line %zu: %s", text->line, line_fault(found));
             return -1;
         }
         int count = 0;
@@ -39,8 +41,9 @@ static int next_numbers(struct text *text, double value[COLUMNS])
             char *end = at;
             const double x = count < COLUMNS ? line_number(at, &end) : 0;
             if (end == at || !isfinite(x)) {
-                model_fault(text->source, "line %zu: '%.20s' is not one of at most %d numbers", text->line,
-                            at, COLUMNS);
+                if (text->source != NULL)
+                    model_fault(text->source, "line %zu: '%.20s' is not one of at most %d numbers",
+                                text->line, at, COLUMNS);
                 return -1;
             }
             value[count++] = x;
@@ -118,17 +121,21 @@ static double held(struct text *text, double value, const double bound[2])
     return inside;
 }
 
-/* Keeps a value if the body needs it. */
-static void keep(struct text *text, const size_t at[3], const double value[COLUMNS])
+/* The index in the file of what has index `at` along an axis of the model, or the other way round. */
+static size_t turned(const struct text *text, int axis, size_t at)
 {
-    struct model_grid *grid = &text->source->model->grid[0];
-    size_t index = 0;
-    for (int axis = 0; axis < 3; axis++) {
-        const bool forth = (text->step[axis] > 0) == (axis < 2);
-        const size_t i = forth ? at[axis] : text->n[axis] - 1 - at[axis];
-        if (i < text->first[axis] || i - text->first[axis] >= grid->n[axis]) return;
-        index = index * grid->n[axis] + i - text->first[axis];
-    }
+    const bool forth = (text->step[axis] > 0) == (axis < 2);
+    return forth ? at : text->n[axis] - 1 - at;
+}
+
+/* The first mark of the row over x of a value. */
+static off_t *marks_of(const struct text *text, const size_t at[3])
+{
+    return text->mark + (at[2] * text->n[1] + at[1]) * ((text->n[0] + APART - 1) / APART);
+}
+
+static void put(struct text *text, const struct model_grid *grid, size_t index, const double value[COLUMNS])
+{
     grid->value[0][index] = held(text, value[5], text->bound + 4);
     grid->value[1][index] = held(text, value[3], text->bound);
     grid->value[2][index] = held(text, value[4], text->bound + 2);
@@ -136,9 +143,98 @@ static void keep(struct text *text, const size_t at[3], const double value[COLUM
         grid->value[set][index] = value[3 + set];
 }
 
+/* Keeps a value if the body needs it, and all are kept. */
+static void keep(struct text *text, const size_t at[3], const double value[COLUMNS])
+{
+    const struct model_grid *grid = &text->source->model->grid[0];
+    size_t index = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const size_t i = turned(text, axis, at[axis]);
+        if (i < text->first[axis] || i - text->first[axis] >= grid->n[axis]) return;
+        index = index * grid->n[axis] + i - text->first[axis];
+    }
+    double counted[6]; /* of what is beyond the bounds, too */
+    const struct model_grid one = {.value = {counted, counted + 1, counted + 2}};
+    if (text->mark == NULL)
+        put(text, grid, index, value);
+    else
+        put(text, &one, 0, value);
+}
+
+/* --- Values that are read again --- */
+
+/* Reads those of a row over x that a box has: `row` is the first one's index along the model's own axes. */
+static bool read_row(struct text *text, const struct model_grid *box, const size_t row[3], size_t index)
+{
+    const size_t last = box->n[0] - 1, one = turned(text, 0, row[0]), other = turned(text, 0, row[0] + last);
+    const size_t from = one < other ? one : other;
+    const size_t at[3] = {from, turned(text, 1, row[1]), turned(text, 2, row[2])};
+    double value[COLUMNS];
+    if (fseeko(text->file, marks_of(text, at)[from / APART], SEEK_SET) != 0) return false;
+    for (size_t i = from / APART * APART; i < from; i++)
+        if (next_numbers(text, value) != (int)text->columns) return false;
+    for (size_t i = 0; i <= last; i++) {
+        if (next_numbers(text, value) != (int)text->columns) return false;
+        put(text, box, (one <= other ? i : last - i) * box->n[1] * box->n[2] + index, value);
+    }
+    return true;
+}
+
+static bool read_rows(void *context, const struct model_grid *box, const size_t first[3])
+{
+    struct text *text = context;
+    for (size_t k = 0; k < box->n[2]; k++)
+        for (size_t j = 0; j < box->n[1]; j++) {
+            const size_t row[3] = {text->first[0] + first[0], text->first[1] + first[1] + j,
+                                   text->first[2] + first[2] + k};
+            if (!read_row(text, box, row, j * box->n[2] + k)) return false;
+        }
+    if (box->value[MODEL_VALUES] != NULL) model_no_quality(box);
+    return true;
+}
+
+static void close_text(void *context)
+{
+    struct text *text = context;
+    if (text->file != NULL) fclose(text->file);
+    array_free(text->mark);
+    array_free(text);
+}
+
+/* Gives the grid pieces, which own the marks. */
+static bool read_later(struct text *text)
+{
+    struct model_source *source = text->source;
+    struct text *again = scene_array(source->builder, 1, sizeof *again);
+    if (again == NULL) return false;
+    *again = *text;
+    again->source = NULL;
+    again->file = fopen(source->path, "rb");
+    const struct model_origin origin = {read_rows, close_text, again,
+                                        source->model->damped ? MODEL_SETS : MODEL_VALUES, NULL};
+    text->mark = NULL;
+    if (again->file != NULL && model_pieces_new(&source->model->grid[0], &origin)) return true;
+    if (again->file != NULL) complain_of_memory(source->builder);
+    close_text(again);
+    return model_unread(source);
+}
+
+/* For the values, or for the marks of those that are read again. */
+static bool find_room(struct text *text)
+{
+    struct model_source *source = text->source;
+    struct model_grid *grid = &source->model->grid[0];
+    if (!model_room(source, grid, model_sets(source, text->columns == COLUMNS))) return false;
+    if (grid->value[0] != NULL) return true;
+    const size_t row = (text->n[0] + APART - 1) / APART;
+    text->mark = scene_array(source->builder, row * text->n[1] * text->n[2], sizeof *text->mark);
+    return text->mark != NULL;
+}
+
 static bool read_value(struct text *text, const size_t at[3])
 {
     double value[COLUMNS];
+    const off_t here = at[0] % APART == 0 ? ftello(text->file) : 0;
     const int count = next_numbers(text, value);
     const size_t number = (at[2] * text->n[1] + at[1]) * text->n[0] + at[0];
     if (count < 0) return false;
@@ -147,10 +243,9 @@ static bool read_value(struct text *text, const size_t at[3])
                            text->n[0], text->n[1], text->n[2], text->line);
     if (number == 0) {
         text->columns = (size_t)count;
-        if (!model_room(text->source, &text->source->model->grid[0],
-                        model_sets(text->source, count == COLUMNS)))
-            return false;
+        if (!find_room(text)) return false;
     }
+    if (text->mark != NULL && at[0] % APART == 0) marks_of(text, at)[at[0] / APART] = here;
     if ((count != 6 && count != 8) || (size_t)count != text->columns)
         return model_fault(text->source,
                            "line %zu: %d numbers; expected x y z p_speed s_speed density, or q_p q_s behind "
@@ -173,20 +268,26 @@ static bool read_value(struct text *text, const size_t at[3])
     return true;
 }
 
+static bool read_values(struct text *text)
+{
+    double more[COLUMNS];
+    for (size_t at[3] = {0}; at[2] < text->n[2]; at[2]++)
+        for (at[1] = 0; at[1] < text->n[1]; at[1]++)
+            for (at[0] = 0; at[0] < text->n[0]; at[0]++)
+                if (!read_value(text, at)) return false;
+    if (next_numbers(text, more) == 0) return text->mark == NULL || read_later(text);
+    return model_fault(text->source, "line %zu: more than %zu x %zu x %zu values", text->line, text->n[0],
+                       text->n[1], text->n[2]);
+}
+
 bool model_read_text(struct model_source *source, FILE *file)
 {
     struct text text = {.source = source, .file = file};
-    double more[COLUMNS];
-    source->si = source->plainly = true;
+    source->si = true;
     source->model->sea = source->model->sea || source->below_sea;
-    if (!read_head(&text) || !lay_grid(&text)) return false;
-    for (size_t at[3] = {0}; at[2] < text.n[2]; at[2]++)
-        for (at[1] = 0; at[1] < text.n[1]; at[1]++)
-            for (at[0] = 0; at[0] < text.n[0]; at[0]++)
-                if (!read_value(&text, at)) return false;
-    if (next_numbers(&text, more) != 0)
-        return model_fault(source, "line %zu: more than %zu x %zu x %zu values", text.line, text.n[0],
-                           text.n[1], text.n[2]);
+    const bool good = read_head(&text) && lay_grid(&text) && read_values(&text);
+    array_free(text.mark);
+    if (!good) return false;
     if (text.clipped > 0)
         warn(source->builder->messages,
              "'%s': %zu numbers lie beyond the bounds of its fourth line and are held to them, as the format "

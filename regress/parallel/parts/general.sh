@@ -26,29 +26,15 @@ awk '/^ranks: 2, planes/ { a = $(NF - 1); b = $NF } /^halo bytes a step/ { sub(/
         d = told - e; exit !(told > 0 && told < 1 && d * d < .00505 ^ 2) }' "$work/plan"
 verdict $? "the plan on ranks tells the efficiency of the model of cost"
 
-# A model of the ground from a file (an rfile of SW4: 17 x 17 x 481 values, two rocks in turn): a rank reads what its lattice
-# needs.
-LC_ALL=C awk 'function bytes(list, n, i, one) { n = split(list, one, " "); for (i = 1; i <= n; i++) printf "%c", one[i] }
-    BEGIN {
-        zero = "0 0 0 0"; real = zero " " zero; fifty = zero " 0 0 73 64"; twenty = zero " 0 0 52 64"
-        bytes("1 0 0 0 4 0 0 0 " zero " " real " " real " " real " " zero " 2 0 0 0")
-        bytes(fifty " " fifty " " real " 1 0 0 0 17 0 0 0 17 0 0 0 1 0 0 0")
-        bytes(fifty " " twenty " " real " 3 0 0 0 17 0 0 0 17 0 0 0 225 1 0 0")
-        for (i = 0; i < 289; i++) bytes(zero)
-        rock[0] = "0 0 250 68 0 128 59 69 0 128 187 68"; rock[1] = "0 0 225 68 0 0 250 68 0 0 122 68" # 2000 3000 1500, 1800 2000 1000
-        for (i = 0; i < 289; i++) for (k = 0; k < 481; k++) bytes(rock[(i + int(k / 40)) % 2])
-    }' >"$work/ground.rfile"
-cat >"$work/ground.nml" <<'END'
-&scene title = 'ground from a file', dimension = 3, end_time = .1 /
-&method operator = 'general' /
-&body low = 0, 0, 0, high = 800, 800, 9600, spacing = 100 /
-&model file = 'ground.rfile' /
-&load face = 'z-', shape = 'square', centre = 400, 400, 0, size = 200, 200, direction = 0, 0, 1, history = 'gaussian', width = .1, delay = .5, amplitude = 1e6 /
-&receiver name = 'r', position = 500, 400, 0 /
-END
+# A model of the ground from a file: a rank reads what its lattice needs.
+ground="regress/parallel/ground-file.nml model%file=$work/ground.rfile"
+LC_ALL=C awk -v values=1921 -f regress/parallel/rfile.awk >"$work/ground.rfile"
 SELAS_MODEL_KEPT=0
 export SELAS_MODEL_KEPT
-same 4 "ground from a file that ranks read in pieces" "$work/ground.nml"
-awk '/^ground values read/ { read = $7; all = $9 } END { exit !(all > 3e6 && read < .6 * all) }' "$work/ranks/report.txt"
+same 4 "ground from a file that ranks read in pieces" $ground
+awk '/^ground values read/ { read = $7; all = $9 } END { exit !(all > 1.3e7 && read < .6 * all) }' "$work/ranks/report.txt"
 verdict $? "a rank reads no more of a model than its lattice needs"
 unset SELAS_MODEL_KEPT
+quiet 4 $ground output%plots=F output%directory="$work/whole"
+awk -F ': ' '/^peak memory/ { peak[FILENAME] = $2 } END { exit !(peak[ARGV[1]] + .75 * 24 * 17 * 17 * 1921 < peak[ARGV[2]]) }' "$work/ranks/report.txt" "$work/whole/report.txt"
+verdict $? "no rank that reads a model in pieces has a quarter of it at once"
