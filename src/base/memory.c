@@ -34,6 +34,26 @@ void *array_new(size_t count, size_t size)
     return array;
 }
 
+void *array_resized(void *array, size_t count, size_t room, size_t size)
+{
+    unsigned char *given = NULL;
+    if (array == NULL) return array_new(room, size);
+    memcpy(&given, (unsigned char *)array - PLACE, PLACE);
+    const size_t before = (size_t)((unsigned char *)array - given);
+    unsigned char *fresh = NULL;
+    if (room <= (SIZE_MAX / 2) / size && !beyond_machine(room * size))
+        fresh = realloc(given, (room * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT + ALIGNMENT + PLACE);
+    if (fresh == NULL) {
+        free(given);
+        return NULL;
+    }
+    const size_t past = ((uintptr_t)fresh + PLACE) % ALIGNMENT;
+    unsigned char *resized = fresh + PLACE + (past == 0 ? 0 : ALIGNMENT - past);
+    if (resized != fresh + before) memmove(resized, fresh + before, (count < room ? count : room) * size);
+    memcpy(resized - PLACE, &fresh, PLACE);
+    return resized;
+}
+
 void array_free(void *array)
 {
     unsigned char *given = NULL;

@@ -18,20 +18,11 @@ bool tl_near(double a, double b, double scale)
     return fabs(a - b) <= TOLERANCE * scale;
 }
 
-/* An array with room for more elements; the old one is freed. */
-static void *larger(void *old, size_t count, size_t room, size_t size)
-{
-    void *fresh = array_new(room, size);
-    if (fresh != NULL && count > 0) memcpy(fresh, old, count * size);
-    array_free(old);
-    return fresh;
-}
-
 static bool set_entry_room(struct tl_rows *rows, size_t room)
 {
     const size_t count = rows->start[rows->rows] + rows->open;
-    rows->shift = larger(rows->shift, count, room, sizeof *rows->shift);
-    rows->weight = larger(rows->weight, count * rows->width, room * rows->width, sizeof *rows->weight);
+    rows->shift = array_resized(rows->shift, count, room, sizeof *rows->shift);
+    rows->weight = array_resized(rows->weight, count * rows->width, room * rows->width, sizeof *rows->weight);
     rows->entry_room = room;
     return rows->shift != NULL && rows->weight != NULL;
 }
@@ -39,8 +30,8 @@ static bool set_entry_room(struct tl_rows *rows, size_t room)
 static bool set_row_room(struct tl_rows *rows, size_t room)
 {
     rows->start =
-        larger(rows->start, rows->start != NULL ? rows->rows + 1 : 0, room + 1, sizeof *rows->start);
-    rows->example = larger(rows->example, rows->rows, room, sizeof *rows->example);
+        array_resized(rows->start, rows->start != NULL ? rows->rows + 1 : 0, room + 1, sizeof *rows->start);
+    rows->example = array_resized(rows->example, rows->rows, room, sizeof *rows->example);
     rows->row_room = room;
     return rows->start != NULL && rows->example != NULL;
 }
