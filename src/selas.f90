@@ -18,6 +18,9 @@ module selas
    public :: selas_simulation, selas_vector_function, selas_teller, selas_version, selas_status_gloss, &
       selas_status_name, selas_components
 
+   character(*), parameter :: no_copies = &
+      'a simulation cannot be copied: a pointer to it, or an argument, would be right'
+
    abstract interface
       ! A vector at a time and a place: ierr = 0 goes on, > 0 stops after this step, < 0 fails. `host` is what was
       ! given beside the procedure (null if nothing was): select type gets at it.
@@ -44,14 +47,17 @@ module selas
       procedure(selas_teller), pointer, nopass :: tell => null()
    end type
 
-   ! One simulation. Not to be copied; closed by close() or when it goes out of scope.
+   ! One simulation; closed by close() or when it goes out of scope. It cannot be copied: what it is assigned to is
+   ! none.
    type :: selas_simulation
       private
       type(c_ptr) :: handle = c_null_ptr
       type(callback), pointer :: callbacks => null()
       integer :: kept = selas_ok
+      logical :: copied = .false.
    contains
-      procedure, private :: open_file, open_unit
+      procedure, private :: open_file, open_unit, refuse_copy
+      generic, public :: assignment(=) => refuse_copy
       generic, public :: open_deck => open_file, open_unit
       procedure, public :: open_text, open_new, add, set_points, build
       procedure, private :: set_real_one, set_real_many, set_integer_one, set_logical_one, set_text_one, &
@@ -398,6 +404,10 @@ contains
    function message(self) result(text)
       class(selas_simulation), intent(in) :: self
       character(:), allocatable :: text
+      if (self%copied) then
+         text = no_copies
+         return
+      end if
       text = from_c(c_message(self%handle))
    end function
 
@@ -405,6 +415,10 @@ contains
    function last_message(self) result(text)
       class(selas_simulation), intent(in) :: self
       character(:), allocatable :: text
+      if (self%copied) then
+         text = no_copies
+         return
+      end if
       text = from_c(c_last_message(self%handle))
    end function
 
@@ -449,6 +463,17 @@ contains
          self%callbacks => next
       end do
       self%kept = selas_ok
+      self%copied = .false.
+   end subroutine
+
+   ! left = right: two that close one simulation would be wrong.
+   impure elemental subroutine refuse_copy(left, right)
+      class(selas_simulation), intent(inout) :: left
+      type(selas_simulation), intent(in) :: right
+      if (c_associated(left%handle) .and. c_associated(left%handle, right%handle)) return ! itself
+      call close_simulation(left)
+      left%kept = selas_bad_argument
+      left%copied = .true.
    end subroutine
 
    impure elemental subroutine finalise(self)

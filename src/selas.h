@@ -2,7 +2,9 @@
  *
  * A simulation is an opaque handle. Every call that can fail returns a status; selas_message() says where it
  * failed, what was wrong and what would be right. The library never prints, exits or installs a signal
- * handler. */
+ * handler. A handle that is not open (or is closed: a copy of it), and one that another thread is inside of, are
+ * answered with SELAS_BAD_ARGUMENT. Inside a call the thread's floating-point arithmetic is that of the standard,
+ * without traps, and its locale "C"; functions of the host are called in its own. */
 #ifndef SELAS_H
 #define SELAS_H
 
@@ -129,7 +131,8 @@ SELAS_API const char *selas_last_message(selas_simulation *simulation);
 /* Folder that selas_write fills; "" if the simulation has none. */
 SELAS_API const char *selas_output_directory(selas_simulation *simulation);
 
-/* Ends a simulation and sets the handle to NULL; NULL or a pointer to NULL is fine. */
+/* Ends a simulation and sets the handle to NULL; NULL or a pointer to NULL or to a closed one is fine. Not while a call
+ * of it runs. */
 SELAS_API void selas_close(selas_simulation **simulation);
 
 /* --- Building a scene by calls ---
@@ -197,7 +200,7 @@ SELAS_API selas_status selas_set_motion(selas_simulation *simulation, const char
 /* Holds a load at `value` (traction, force per volume or force, along its direction) from the time reached
  * on, in place of amplitude times history, until it is changed again: the acceleration at the time reached is
  * made anew with it. The first call for a load must come before the first step, later ones may come at any
- * time. With Runge-Kutta schemes the value acts from the next step on. */
+ * time until the histories are finished. With Runge-Kutta schemes the value acts from the next step on. */
 SELAS_API selas_status selas_set_load(selas_simulation *simulation, const char *load, double value);
 /* Mean of SELAS_DISPLACEMENT, SELAS_VELOCITY or SELAS_ACCELERATION over the patch of a load (or the body, or
  * at the point), along the load's direction: that through which the load does work. */

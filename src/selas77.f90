@@ -1,20 +1,52 @@
 ! A thin layer for hosts in Fortran 77: external subroutines with names of six letters. SIM is an INTEGER*8 that
-! stands for a simulation (0: none); IERR is a status of selas.h (0: success); reals are DOUBLE PRECISION. The
-! table of all of them is in doc/howto/calling.md.
+! stands for a simulation (0: none; one that was not opened, or is closed, is refused); IERR is a status of selas.h
+! (0: success); reals are DOUBLE PRECISION. The table of all of them is in doc/howto/calling.md.
 module selas77
-   use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_f_pointer, c_associated, c_loc
+   use, intrinsic :: iso_c_binding, only: c_loc
    use, intrinsic :: iso_fortran_env, only: int64, real64
    use selas
    implicit none
+
+   ! The simulations that were opened here; SIM is the address of one. Of one that is closed the address is null.
+   type :: opened
+      type(selas_simulation), pointer :: simulation => null()
+      type(opened), pointer :: next => null()
+   end type
+   type(opened), pointer :: first => null()
 contains
-   ! The simulation behind a handle, or an unassociated pointer.
+   ! A new one; its address goes to SIM.
+   function new_simulation(sim) result(made)
+      integer(int64), intent(out) :: sim
+      type(selas_simulation), pointer :: made
+      type(opened), pointer :: entry
+      allocate (made, entry)
+      entry%simulation => made
+      entry%next => first
+      first => entry
+      sim = transfer(c_loc(made), sim)
+   end function
+
+   ! The entry behind a handle, or an unassociated pointer: it was not opened, or is closed.
+   function entry_of(sim) result(at)
+      integer(int64), intent(in) :: sim
+      type(opened), pointer :: at
+      integer(int64) :: address
+      at => first
+      do while (associated(at))
+         if (associated(at%simulation)) then
+            if (transfer(c_loc(at%simulation), address) == sim) exit
+         end if
+         at => at%next
+      end do
+   end function
+
    function simulation_of(sim) result(found)
       integer(int64), intent(in) :: sim
       type(selas_simulation), pointer :: found
-      type(c_ptr) :: address
-      address = transfer(sim, c_null_ptr)
+      type(opened), pointer :: at
       found => null()
-      if (c_associated(address)) call c_f_pointer(address, found)
+      at => entry_of(sim)
+      if (associated(at)) found => at%simulation
    end function
 end module selas77
 
@@ -26,8 +58,7 @@ subroutine slopen(path, sim, ierr)
    integer(int64), intent(out) :: sim
    integer, intent(out) :: ierr
    type(selas_simulation), pointer :: made
-   allocate (made)
-   sim = transfer(c_loc(made), sim)
+   made => new_simulation(sim)
    call made%open_deck(path, ierr)
 end subroutine
 
@@ -39,8 +70,7 @@ subroutine slnew(name, sim, ierr)
    integer(int64), intent(out) :: sim
    integer, intent(out) :: ierr
    type(selas_simulation), pointer :: made
-   allocate (made)
-   sim = transfer(c_loc(made), sim)
+   made => new_simulation(sim)
    call made%open_new(name, ierr)
 end subroutine
 
@@ -49,9 +79,9 @@ subroutine slclos(sim)
    use selas77
    implicit none
    integer(int64), intent(inout) :: sim
-   type(selas_simulation), pointer :: found
-   found => simulation_of(sim)
-   if (associated(found)) deallocate (found) ! the final procedure closes it
+   type(opened), pointer :: at
+   at => entry_of(sim)
+   if (associated(at)) deallocate (at%simulation) ! the final procedure closes it
    sim = 0
 end subroutine
 
@@ -63,7 +93,7 @@ subroutine slmesg(sim, text)
    character(*), intent(out) :: text
    type(selas_simulation), pointer :: found
    found => simulation_of(sim)
-   text = 'no simulation (the handle is 0)'
+   text = 'no simulation: SIM was not opened, or is closed'
    if (associated(found)) text = found%message()
 end subroutine
 
@@ -75,7 +105,7 @@ subroutine sllast(sim, text)
    character(*), intent(out) :: text
    type(selas_simulation), pointer :: found
    found => simulation_of(sim)
-   text = 'no simulation (the handle is 0)'
+   text = 'no simulation: SIM was not opened, or is closed'
    if (associated(found)) text = found%last_message()
 end subroutine
 

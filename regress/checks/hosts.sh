@@ -38,7 +38,7 @@ with() { # with PACKAGE COMMAND...: the command with what pkg-config says of the
 static=
 rpath="-Wl,-rpath,$place/lib"
 cd "$work" || exit 1
-for host in halfspace_by_calls coupled_mass twins; do
+for host in halfspace_by_calls coupled_mass twins wrong_handles; do
     check "$host compiles (f2018)" with selas-fortran gfortran -std=f2018 -Wall -Wno-compare-reals -Werror -O1 "$rpath" \
         -o $host "$root/regress/hosts/$host.f90"
 done
@@ -86,6 +86,7 @@ check "which runs" ./legacy_8
 check "and with 8-byte default reals" with selas-fortran gfortran -std=legacy -fdefault-real-8 -fdefault-double-8 "$rpath" -o legacy_r8 \
     "$root/regress/hosts/legacy_scene.f"
 check "which runs too" ./legacy_r8
+check "handles that are none are refused" ./wrong_handles "$root/input/bar.nml"
 ./twins "$root/input/halfspace-lysmer.nml" || echo "not ok - the Fortran twins ended early"
 
 # The interfaces of selas.f90 are the declarations of selas.h, types and all; a difference is seen on either side.

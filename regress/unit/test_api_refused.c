@@ -236,12 +236,86 @@ static void test_plans_are_not_interrupted(void **state)
     assert_null(s);
 }
 
+/* A held load of a run whose histories are finished: nothing follows, so nothing changes. */
+static void test_finished(void **state)
+{
+    (void)state;
+    double before[6], after[6];
+    selas_simulation *s = open_scene();
+    assert_int_equal(selas_set_load(s, "hammer", 1), SELAS_OK);
+    assert_int_equal(selas_finish(s), SELAS_OK);
+    assert_int_equal(selas_receiver(s, "r", SELAS_ACCELERATION, before), SELAS_OK);
+    wrong(s, selas_set_load(s, "hammer", 100));
+    assert_int_equal(selas_receiver(s, "r", SELAS_ACCELERATION, after), SELAS_OK);
+    assert_memory_equal(before, after, 3 * sizeof *before);
+    selas_close(&s);
+}
+
+/* A face that a function moves must still be one that the deck moves when the scene is built. */
+static void test_moved_face(void **state)
+{
+    (void)state;
+    char text[2048];
+    selas_simulation *s = NULL;
+    struct push push = {0};
+    snprintf(text, sizeof text,
+             "&scene dimension = 2, end_time = 1 /\n&material name = 'r', density = 1, lambda = 1, mu = 1 /\n"
+             "&body material = 'r', low = 0, 0, high = 4, 4, spacing = 1 /\n"
+             "&boundary face = 'x-', kind = 'displacement', direction = 1, 0, history = 'step' /\n");
+    assert_int_equal(selas_open_text("moved", text, &s), SELAS_OK);
+    assert_int_equal(selas_set_motion(s, "x-", triangle, &push), SELAS_OK);
+    assert_int_equal(selas_set_text(s, "boundary%face", 1, &(const char *const){"y-"}), SELAS_OK);
+    wrong(s, selas_step(s, 1));
+    assert_non_null(strstr(selas_last_message(s), "moves face 'x-', which has no &boundary"));
+    assert_int_equal(selas_set_text(s, "boundary%face", 1, &(const char *const){"x-"}), SELAS_OK);
+    assert_int_equal(selas_step(s, 1), SELAS_OK);
+    selas_close(&s);
+}
+
+/* Points of the host: all of what it gave is used, or refused. */
+static void test_points_that_are_not_used(void **state)
+{
+    (void)state;
+    enum { POINTS = 32, ALONG = 8 };
+    double position[3 * POINTS] = {0}, volume[POINTS];
+    selas_simulation *s = NULL;
+    for (int i = 0; i < POINTS; i++) {
+        position[3 * i] = .125 + .25 * (i % ALONG);
+        position[3 * i + 1] = .125 + .25 * (i / ALONG);
+        volume[i] = .0625;
+    }
+    assert_int_equal(selas_open_text("points",
+                                     "&scene dimension = 2, end_time = 1 /\n&method name = 'sph' /\n"
+                                     "&material name = 'r', density = 1, lambda = 1, mu = 1 /\n"
+                                     "&body material = 'r', low = 0, 0, high = 2, 1, spacing = .25 /\n",
+                                     &s),
+                     SELAS_OK);
+    position[2] = .05;
+    assert_int_equal(selas_set_points(s, POINTS, position, volume, NULL), SELAS_OK);
+    wrong(s, selas_build(s));
+    assert_non_null(
+        strstr(selas_last_message(s), "point 1 of the host has z = 0.05; expected 0 in 2 dimensions"));
+    position[2] = 0;
+    assert_int_equal(selas_set_points(s, POINTS, position, volume, NULL), SELAS_OK);
+    assert_int_equal(selas_build(s), SELAS_OK);
+    assert_int_equal(selas_set_text(s, "body%shape", 1, &(const char *const){"box"}), SELAS_OK);
+    wrong(s, selas_build(s));
+    assert_non_null(strstr(selas_last_message(s), "expected shape 'points'"));
+    selas_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refused_calls_change_nothing), cmocka_unit_test(test_one_failure_is_told_once),
-        cmocka_unit_test(test_loads_behind_sources),         cmocka_unit_test(test_sources_grow),
-        cmocka_unit_test(test_nothing_to_compare),           cmocka_unit_test(test_plans_are_not_interrupted),
+        cmocka_unit_test(test_refused_calls_change_nothing),
+        cmocka_unit_test(test_one_failure_is_told_once),
+        cmocka_unit_test(test_loads_behind_sources),
+        cmocka_unit_test(test_sources_grow),
+        cmocka_unit_test(test_nothing_to_compare),
+        cmocka_unit_test(test_plans_are_not_interrupted),
+        cmocka_unit_test(test_finished),
+        cmocka_unit_test(test_moved_face),
+        cmocka_unit_test(test_points_that_are_not_used),
     };
     omp_set_num_threads(1);
     return cmocka_run_group_tests(tests, NULL, NULL);

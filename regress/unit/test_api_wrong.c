@@ -147,6 +147,8 @@ static void test_wrong_words(void **state)
     wrong(s, selas_set_real(s, "body%spacing", 0, &one));
     wrong(s, selas_set_real(s, "body%spacing", 1, NULL));
     wrong(s, selas_set_real(s, "body%low", 40, many));
+    wrong(s, selas_set_real(s, "body%low", (size_t)-1, many)); /* refused before they are read */
+    wrong(s, selas_set_text(s, "scene%title", (size_t)-1, text));
     wrong(s, selas_set_text(s, "body%spacing", 1, text));
     wrong(s, selas_set_text(s, "scene%title", 2, text));
     wrong(s, selas_set_text(s, "scene%title", 1, nobody));

@@ -103,12 +103,8 @@ selas_status selas_set_motion(selas_simulation *simulation, const char *face,
     if (index == FACES)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "there is no face '%.60s'; expected x-, x+, ... z+", face != NULL ? face : "(NULL)");
-    if (!boundary_moves(&simulation->scene->boundary[index]))
-        return fail(
-            &simulation->messages, SELAS_BAD_ARGUMENT,
-            "face '%s' has no &boundary of kind 'displacement' (its direction says which way it moves)",
-            face);
-    status = simulation_may_change(simulation);
+    status = host_moves(simulation, (enum face)index);
+    if (status == SELAS_OK) status = simulation_may_change(simulation);
     if (status != SELAS_OK) return status;
     simulation->host.face[index] = (struct driven_face){displacement, context};
     simulation_discard(simulation);
@@ -126,6 +122,9 @@ selas_status selas_set_load(selas_simulation *simulation, const char *load, doub
     if (!isfinite(value))
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "the value of load '%s' is not a finite number", load);
+    if (simulation->finished)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "the histories are finished; no step can follow");
     struct driven_load *driven = driven_of(&simulation->host, wanted.load);
     if (driven != NULL && driven->function != NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "load '%s' is given by a function of the host",

@@ -151,6 +151,16 @@ static void drop_reference(selas_simulation *simulation)
     reference->kind[0] = '\0';
 }
 
+selas_status host_moves(selas_simulation *simulation, enum face face)
+{
+    if (boundary_moves(&simulation->scene->boundary[face])) return SELAS_OK;
+    return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                "a function of the host moves face '%s', which has no &boundary of kind 'displacement' (its "
+                "direction "
+                "says which way)",
+                face_name(face));
+}
+
 selas_status host_prepare_scene(selas_simulation *simulation)
 {
     const struct host *host = &simulation->host;
@@ -158,6 +168,7 @@ selas_status host_prepare_scene(selas_simulation *simulation)
     for (size_t face = 0; face < FACES; face++) {
         struct boundary *boundary = &simulation->scene->boundary[face];
         if (host->face[face].function == NULL) continue;
+        if (host_moves(simulation, (enum face)face) != SELAS_OK) return SELAS_BAD_SCENE;
         history_free(&boundary->history);
         boundary->history = (struct history){0};
         boundary->driven = BY_HOST;
@@ -187,7 +198,9 @@ static bool ask(selas_simulation *simulation, selas_vector_function function, vo
     if (host->answer < 0) return false;
     simulation->busy = true;
     const locale_t own = uselocale(simulation->host_locale);
+    fesetenv(&simulation->host_rules);
     int answer = function(context, time, position, value);
+    fesetenv(FE_DFL_ENV);
     uselocale(own);
     simulation->busy = false;
     if (answer >= 0 && !isfinite(value[0] + value[1] + value[2])) answer = -1;

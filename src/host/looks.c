@@ -1,13 +1,11 @@
 /* What a host is told that the program tells its user: the advice on the scene, once, when it begins to step; and that
- * it looks where or when the deck looks at nothing, so that faces have no absorbing layers (scene/echo.h). And its
- * messages. */
+ * it looks where or when the deck looks at nothing, so that faces have no absorbing layers (scene/echo.h). */
 #include "host/simulation.h"
 
 #include "advice/advice.h"
 #include "scene/echo.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void take_advice(void *context, const char *key, const char *value)
@@ -65,22 +63,4 @@ void host_reads(selas_simulation *simulation, const struct receiver *receiver, s
          receiver->name,
          strcmp(simulation->scene->method.variant, "consistent") == 0 ? "a &profile or a &snapshot would do"
                                                                       : "places two spacings off would do");
-}
-
-/* --- All that was said --- */
-
-const char *selas_message(const selas_simulation *simulation)
-{
-    if (simulation == NULL) return "no simulation (the handle is NULL)";
-    return simulation->messages.text != NULL ? simulation->messages.text : "";
-}
-
-const char *selas_last_message(selas_simulation *simulation)
-{
-    if (simulation == NULL) return selas_message(NULL);
-    const size_t from = simulation->consequence ? simulation->failure[0] : simulation->call;
-    const size_t to = simulation->consequence ? simulation->failure[1] : simulation->messages.length;
-    free(simulation->last);
-    simulation->last = to > from ? strndup(simulation->messages.text + from, to - from) : NULL;
-    return simulation->last != NULL ? simulation->last : "";
 }

@@ -92,7 +92,8 @@ selas_status selas_write(selas_simulation *simulation)
     if (!simulation->recording)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "selas_record was not called before the first step");
-    status = simulation_finish(simulation);
+    status = simulation_at_home(simulation);
+    if (status == SELAS_OK) status = simulation_finish(simulation);
     if (status != SELAS_OK) return status;
     /* what was computed is written, whether there is something to compare it with or not */
     const selas_status compared = ranks_first(simulation->ranks) ? make_exact(simulation, true) : SELAS_OK;
@@ -109,7 +110,8 @@ selas_status selas_write_exact(selas_simulation *simulation)
     if (status != SELAS_OK) return status;
     if (simulation->scene->reference.kind[0] == '\0')
         return fail(&simulation->messages, SELAS_BAD_SCENE, "the deck has no &reference");
-    status = make_exact(simulation, true);
+    status = simulation_at_home(simulation);
+    if (status == SELAS_OK) status = make_exact(simulation, true);
     if (status == SELAS_OK)
         status = record_exact(simulation->scene, simulation->exact, &simulation->messages);
     return status;
@@ -120,10 +122,11 @@ selas_status selas_plan(selas_simulation *simulation,
 {
     AT_THE_DOOR(simulation);
     simulation_call(simulation);
-    if (simulation == NULL) return SELAS_BAD_ARGUMENT;
+    selas_status status = simulation_check(simulation);
+    if (status != SELAS_OK) return status;
     if (tell == NULL)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "there is nobody to tell the plan to");
-    selas_status status = simulation_prepare(simulation);
+    status = simulation_prepare(simulation);
     if (status != SELAS_OK) return status;
     simulation->busy = true;
     recorder_plan(simulation->recorder, simulation->state.y == NULL ? simulation->stepper : NULL, tell,

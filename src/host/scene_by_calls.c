@@ -3,6 +3,7 @@
 #include "host/simulation.h"
 
 #include "base/memory.h"
+#include "deck/words.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -61,6 +62,9 @@ static selas_status begin_word(selas_simulation *simulation, const char *word, s
     if (word == NULL || values == NULL || count == 0)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "%s",
                     word == NULL ? "the word to set is NULL" : "there are no values to set");
+    if (count > LIST_SIZE)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "%zu values for '%.60s': no word of the deck takes more than %d", count, word, LIST_SIZE);
     const char *percent = strchr(word, '%');
     if (percent == NULL || strchr(word, '=') != NULL || strlen(word) > 200)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,

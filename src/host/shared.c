@@ -13,7 +13,7 @@ selas_status selas_share_handle(selas_simulation *simulation, int communicator)
 {
     AT_THE_DOOR(simulation);
     simulation_call(simulation);
-    if (simulation == NULL) return SELAS_BAD_ARGUMENT;
+    if (simulation == NULL || door_refused(simulation)) return SELAS_BAD_ARGUMENT;
     struct messages *messages = &simulation->messages;
     if (simulation->joined != NULL || simulation->model != NULL)
         return fail(messages, SELAS_BAD_ARGUMENT, "a simulation is shared once, right after it is opened");

@@ -31,21 +31,16 @@ static void add_elapsed(struct stopwatch since, double *wall, double *cpu)
     *cpu += now.cpu - since.cpu;
 }
 
-struct c_locale door_enter(selas_simulation *simulation)
-{
-    const struct c_locale locale = c_locale_begin();
-    const bool outermost = locale.host != locale.own; /* the functions of the library call each other */
-    if (simulation != NULL && outermost) simulation->host_locale = locale.host;
-    return locale;
-}
-
 /* --- Opening and closing --- */
 
 selas_status simulation_new(selas_simulation **simulation)
 {
     if (simulation == NULL) return SELAS_BAD_ARGUMENT;
     *simulation = calloc(1, sizeof **simulation);
-    return *simulation != NULL ? SELAS_OK : SELAS_NO_MEMORY;
+    if (*simulation != NULL && door_open(*simulation)) return SELAS_OK;
+    free(*simulation);
+    *simulation = NULL;
+    return SELAS_NO_MEMORY;
 }
 
 /* A run that goes on writes where it began. */
@@ -139,8 +134,11 @@ void simulation_discard(selas_simulation *simulation)
 
 void selas_close(selas_simulation **closed)
 {
-    if (closed == NULL || *closed == NULL || (*closed)->busy) return;
+    if (closed == NULL || *closed == NULL) return;
     selas_simulation *simulation = *closed;
+    if (!door_known(simulation)) *closed = NULL;
+    if (*closed == NULL || !door_taken(simulation)) return; /* not from inside, nor beside */
+    door_close(simulation);
     simulation_discard(simulation);
     host_free(simulation);
     array_free(simulation->point_position);
@@ -158,35 +156,9 @@ void selas_close(selas_simulation **closed)
 
 /* --- Building and stepping --- */
 
-void simulation_call(selas_simulation *simulation)
+selas_status simulation_check(selas_simulation *simulation)
 {
-    if (simulation == NULL || simulation->busy) return;
-    simulation->call = simulation->messages.length;
-    simulation->consequence = false;
-}
-
-static void keep_failure(selas_simulation *simulation)
-{
-    simulation->failure[0] = simulation->call;
-    simulation->failure[1] = simulation->messages.length;
-}
-
-void simulation_failed(selas_simulation *simulation, selas_status status)
-{
-    simulation->failed = status;
-    if (status != SELAS_OK) keep_failure(simulation);
-}
-
-selas_status simulation_consequence(selas_simulation *simulation, selas_status status)
-{
-    simulation->consequence = true;
-    return status;
-}
-
-/* SELAS_OK if the handle can be used, and is not inside one of its own callbacks. */
-static selas_status simulation_check(selas_simulation *simulation)
-{
-    if (simulation == NULL) return SELAS_BAD_ARGUMENT;
+    if (simulation == NULL || door_refused(simulation)) return SELAS_BAD_ARGUMENT;
     if (simulation->busy)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "a function of the host may not call its own simulation");
@@ -214,7 +186,7 @@ selas_status simulation_scene(selas_simulation *simulation)
     status = deck_complete(simulation->deck, &simulation->messages);
     if (status == SELAS_OK) status = build_scene(simulation);
     simulation->broken = status;
-    if (status != SELAS_OK) keep_failure(simulation);
+    if (status != SELAS_OK) simulation_keep_failure(simulation);
     return status;
 }
 
@@ -223,6 +195,17 @@ selas_status selas_build(selas_simulation *simulation)
     AT_THE_DOOR(simulation);
     simulation_call(simulation);
     return simulation_scene(simulation);
+}
+
+selas_status simulation_at_home(selas_simulation *simulation)
+{
+    const char *directory = simulation->scene->output.directory;
+    if (directory[0] == '/' || !deck_moved(simulation->deck)) return SELAS_OK;
+    return fail(&simulation->messages, SELAS_FILE_ERROR,
+                "the folder of the results, '%s', is meant from where the deck was opened, which the host "
+                "has left: to go "
+                "back, or an output%%directory that begins with '/', would be right",
+                directory);
 }
 
 selas_status simulation_prepare(selas_simulation *simulation)
@@ -262,6 +245,8 @@ static selas_status start(selas_simulation *simulation)
 {
     selas_status status = simulation_prepare(simulation);
     if (status != SELAS_OK || simulation->state.y != NULL) return status;
+    if (simulation->recording) status = simulation_at_home(simulation);
+    if (status != SELAS_OK) return status;
     const struct stopwatch begun = start_watch();
     model_computed(simulation->model)->evaluations = 0;
     status = simulation_state(simulation);
@@ -301,6 +286,8 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
     if (simulation->failed != SELAS_OK) return simulation_consequence(simulation, simulation->failed);
     if (simulation->finished && steps > 0)
         return fail(messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
+    if (simulation->recording && steps > 0) status = simulation_at_home(simulation);
+    if (status != SELAS_OK) return status;
     if (steps > 0) host_advise(simulation);
     const struct stopwatch begun = start_watch();
     const double waited = ranks_waited(simulation->ranks);
@@ -326,6 +313,8 @@ selas_status selas_step(selas_simulation *simulation, unsigned long steps)
 {
     AT_THE_DOOR(simulation);
     simulation_call(simulation);
+    const selas_status status = simulation_check(simulation);
+    if (status != SELAS_OK) return status;
     if (steps <= ~0UL >> 1) return run_steps(simulation, steps);
     return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "a number of steps below 0, or too large");
 }
@@ -346,7 +335,7 @@ selas_status selas_advance(selas_simulation *simulation, double time)
 
 double selas_time(const selas_simulation *simulation)
 {
-    return simulation != NULL && simulation->deck != NULL ? simulation->state.time : (double)NAN;
+    return door_known(simulation) && simulation->deck != NULL ? simulation->state.time : (double)NAN;
 }
 
 double selas_end_time(selas_simulation *simulation)
@@ -363,7 +352,7 @@ double selas_time_step(selas_simulation *simulation)
 
 unsigned long selas_steps(const selas_simulation *simulation)
 {
-    return simulation != NULL ? simulation->state.step : 0;
+    return door_known(simulation) ? simulation->state.step : 0;
 }
 
 unsigned long selas_steps_needed(selas_simulation *simulation)

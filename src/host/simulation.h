@@ -3,6 +3,7 @@
 #define SELAS_SIMULATION_H
 
 #include "base/c_locale.h"
+#include "base/float_rules.h"
 #include "compare/diff.h"
 #include "deck/deck.h"
 #include "exact/exact.h"
@@ -74,27 +75,52 @@ struct selas_simulation {
     char *results;        /* folder of the results in place of the deck's; NULL */
     char *work;           /* folder of the checkpoint from which the run goes on; NULL */
     locale_t host_locale; /* of the host's thread: its functions are called in it */
+    fenv_t host_rules;    /* the same of its floating-point arithmetic */
+    const char *inside;   /* the thread inside a call of this simulation; NULL: none (door.c) */
 };
 
-/* First in every function of the library that may read or write a number, in a file or a message: until it
- * returns the thread's locale is "C". `simulation` may be NULL. */
+/* host/door.c */
+struct door {
+    struct c_locale locale;
+    struct float_rules rules;
+    selas_simulation
+        *entered; /* no longer by its thread once this call returns; NULL: by an outer call, or refused */
+};
+/* First in every function of the library that computes, or may read or write a number, in a file or a message: until it
+ * returns the thread's locale is "C", its arithmetic that of the standard, and no other thread can use the simulation.
+ * `simulation` may be NULL. */
 #define AT_THE_DOOR(simulation)                                                                              \
-    __attribute__((cleanup(c_locale_end), unused)) const struct c_locale at_the_door = door_enter(simulation)
-struct c_locale door_enter(selas_simulation *simulation);
+    __attribute__((cleanup(door_leave), unused)) const struct door at_the_door = door_enter(simulation)
+struct door door_enter(selas_simulation *simulation);
+void door_leave(const struct door *door);
+/* The handle is that of an open simulation from now on; false without memory. And: is it no longer, is it one? */
+bool door_open(const selas_simulation *simulation);
+void door_close(const selas_simulation *simulation);
+bool door_known(const selas_simulation *simulation);
+/* Nobody was inside, this thread is now. */
+bool door_taken(selas_simulation *simulation);
+/* Another thread was inside when this one came, or the handle is none: this thread may not look into it. */
+bool door_refused(const selas_simulation *simulation);
 
 /* An empty handle. */
 selas_status simulation_new(selas_simulation **simulation);
 
 /* A function of the library begins: what it says from here on is the message of the last call. NULL is fine. */
 void simulation_call(selas_simulation *simulation);
+/* What this call has said keeps later calls from being done. */
+void simulation_keep_failure(selas_simulation *simulation);
 /* No step can follow, for what this call has said. */
 void simulation_failed(selas_simulation *simulation, selas_status status);
 /* A call that is not done because of what an earlier one has said; that is not said again. */
 selas_status simulation_consequence(selas_simulation *simulation, selas_status status);
-/* SELAS_OK if the handle can be used; builds the scene if it is not there. */
+/* SELAS_OK if the handle can be used by this thread, and is not inside one of its own callbacks. */
+selas_status simulation_check(selas_simulation *simulation);
+/* The same; builds the scene if it is not there. */
 selas_status simulation_scene(selas_simulation *simulation);
 /* The same, with model, time step and recorder, without files. */
 selas_status simulation_prepare(selas_simulation *simulation);
+/* SELAS_OK if a folder of results that is no whole path is that of the deck's opening. */
+selas_status simulation_at_home(selas_simulation *simulation);
 /* The state at rest of one that is prepared; remembers the files that its deck names. Together, on ranks. */
 selas_status simulation_state(selas_simulation *simulation);
 /* The same as simulation_prepare, with the state at t = 0 or later and the loads as they are now. */
@@ -152,6 +178,8 @@ enum { LOAD_NUMBER_SIZE = 32 };
 const char *load_name(const struct scene *scene, size_t load, char number[LOAD_NUMBER_SIZE]);
 /* SELAS_OK if this load is all of its &load; SELAS_UNSUPPORTED: one of several sources. */
 selas_status host_drives_all(selas_simulation *simulation, size_t load);
+/* SELAS_OK if a function can move this face. */
+selas_status host_moves(selas_simulation *simulation, enum face face);
 /* SELAS_OK if a function can give this load, or the reason why not. */
 selas_status host_can_drive(const struct scene *scene, const struct load *load, struct messages *messages);
 void host_free(selas_simulation *simulation);

@@ -193,10 +193,13 @@ selas_status run_file_finish(struct recorder *recorder, const struct run_figures
     struct run_file *file = recorder->file;
     struct ranks *ranks = recorder->scene->ranks;
     struct walk walk = {.ranks = ranks, .path = file->temporary, .named = file->path, .mode = SET_WRITE};
-    const struct quiet quiet = quiet_begin();
-    for (bool more = walk_begin(&walk); more; more = walk_again(&walk))
-        write_all(recorder, figures, &walk, messages);
-    quiet_end(quiet);
+#pragma omp critical(selas_hdf5)
+    {
+        const struct quiet quiet = quiet_begin();
+        for (bool more = walk_begin(&walk); more; more = walk_again(&walk))
+            write_all(recorder, figures, &walk, messages);
+        quiet_end(quiet);
+    }
     const bool good = walk_good(&walk), first = ranks_first(ranks);
     selas_status status = good ? SELAS_OK : walk_cannot(&walk, "write", messages);
     if (first && good) status = safe_file_commit(file->temporary, file->path, messages);
@@ -216,30 +219,38 @@ void run_file_close(struct recorder *recorder, bool complete)
     recorder->file = NULL;
 }
 
+/* `count` blocks of `block` rows, their starts `stride` rows apart. */
+static bool read_blocks(hid_t set, hsize_t components, size_t start, size_t stride, size_t count,
+                        size_t block, double *value)
+{
+    const hsize_t from[2] = {start, 0}, apart[2] = {stride, components}, times[2] = {count, 1};
+    const hsize_t size[2] = {block, components}, whole[2] = {count * block, components};
+    const hid_t there = H5Dget_space(set), here = H5Screate_simple(2, whole, NULL);
+    const bool good = H5Sselect_hyperslab(there, H5S_SELECT_SET, from, apart, times, size) >= 0 &&
+                      H5Dread(set, H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, value) >= 0;
+    H5Sclose(here);
+    H5Sclose(there);
+    return good;
+}
+
 selas_status run_file_read(const struct recorder *recorder, size_t number, selas_field field, size_t start,
                            size_t stride, size_t count, size_t block, double *value,
                            struct messages *messages)
 {
     char name[64];
     snprintf(name, sizeof name, "/snapshots/%04zu/%s", number, field_name(field));
-    const hsize_t components = (hsize_t)field_components(field);
-    const hsize_t from[2] = {start, 0}, apart[2] = {stride, components}, times[2] = {count, 1};
-    const hsize_t size[2] = {block, components}, whole[2] = {count * block, components};
-    const struct quiet quiet = quiet_begin();
-    const hid_t file = hdf_open_file(recorder->file->path);
-    const hid_t set = file >= 0 ? H5Dopen2(file, name, H5P_DEFAULT) : -1;
-    bool good = set >= 0;
-    if (good) {
-        const hid_t there = H5Dget_space(set);
-        const hid_t here = H5Screate_simple(2, whole, NULL);
-        good = H5Sselect_hyperslab(there, H5S_SELECT_SET, from, apart, times, size) >= 0 &&
-               H5Dread(set, H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, value) >= 0;
-        H5Sclose(here);
-        H5Sclose(there);
-        H5Dclose(set);
+    bool good = false;
+#pragma omp critical(selas_hdf5)
+    {
+        const struct quiet quiet = quiet_begin();
+        const hid_t file = hdf_open_file(recorder->file->path);
+        const hid_t set = file >= 0 ? H5Dopen2(file, name, H5P_DEFAULT) : -1;
+        const hsize_t components = (hsize_t)field_components(field);
+        if (set >= 0) good = read_blocks(set, components, start, stride, count, block, value);
+        if (set >= 0) H5Dclose(set);
+        if (file >= 0) H5Fclose(file);
+        quiet_end(quiet);
     }
-    if (file >= 0) H5Fclose(file);
-    quiet_end(quiet);
     return good ? SELAS_OK
                 : fail(messages, SELAS_FILE_ERROR, "cannot read %s of '%s'", name, recorder->file->path);
 }

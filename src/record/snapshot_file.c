@@ -201,11 +201,14 @@ static selas_status write_named(const struct content *content, const char *path,
 {
     struct ranks *ranks = content->recorder->scene->ranks;
     struct walk walk = {.ranks = ranks, .path = temporary, .named = path, .mode = SET_WRITE};
-    const struct quiet quiet = quiet_begin();
-    for (bool more = walk_begin(&walk); more; more = walk_again(&walk))
-        write_content(content, &walk);
-    if (walk_good(&walk) && ranks_first(ranks)) walk_note(&walk, rename(temporary, path) == 0);
-    quiet_end(quiet);
+#pragma omp critical(selas_hdf5)
+    {
+        const struct quiet quiet = quiet_begin();
+        for (bool more = walk_begin(&walk); more; more = walk_again(&walk))
+            write_content(content, &walk);
+        if (walk_good(&walk) && ranks_first(ranks)) walk_note(&walk, rename(temporary, path) == 0);
+        quiet_end(quiet);
+    }
     if (walk_good(&walk)) return SELAS_OK;
     if (ranks_first(ranks)) remove(temporary);
     return walk_cannot(&walk, "write", messages);

@@ -195,6 +195,28 @@ bool take_spacing(const struct builder *builder, const struct deck_group *group,
     return true;
 }
 
+/* Points of the host's own, for which `given` stands. */
+static bool take_points(struct builder *builder, const struct deck_group *group,
+                        const struct given_points *given)
+{
+    const int d = builder->scene->dimension;
+    if (builder->scene->body.shape != BODY_POINTS) {
+        complain(builder, group, "shape",
+                 "the host gave the body points of its own; expected shape 'points'");
+        return false;
+    }
+    builder->scene->body.given = given;
+    for (size_t i = 0; i < given->count; i++)
+        for (int c = d; c < 3; c++)
+            if (fabs(given->position[3 * i + (size_t)c]) > 0) {
+                complain(builder, group, NULL,
+                         "point %zu of the host has %c = %g; expected 0 in %d dimension%s", i + 1, "xyz"[c],
+                         given -> position[3 * i + (size_t)c], d, d == 1 ? "" : "s");
+                return false;
+            }
+    return true;
+}
+
 static bool read_shape(struct builder *builder, const struct deck_group *group)
 {
     static const char *const hole_words[] = {"hole_centre", "hole_radius", NULL};
@@ -211,11 +233,11 @@ static bool read_shape(struct builder *builder, const struct deck_group *group)
         right = read_hole(builder, group) && right;
     else
         refuse(builder, group, hole_words, purpose);
-    if (body->shape != BODY_POINTS) {
-        refuse(builder, group, file_words, purpose);
-    } else if (deck_points(builder->deck) != NULL) {
-        body->given = deck_points(builder->deck);
+    if (deck_points(builder->deck) != NULL) {
+        right = take_points(builder, group, deck_points(builder->deck)) && right;
         refuse(builder, group, file_words, "a body whose points the host hands over");
+    } else if (body->shape != BODY_POINTS) {
+        refuse(builder, group, file_words, purpose);
     } else if (deck_values(group, "file") == 0) {
         complain(builder, group, NULL, "%s needs file", purpose);
         right = false;

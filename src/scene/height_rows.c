@@ -183,11 +183,15 @@ static selas_status read_hdf5(const char *path, int axes, struct height_rows *ro
 {
     struct grid grid = {.n = {1, 1}};
     char fault[STORED_FAULT] = "";
-    const struct quiet quiet = quiet_begin();
-    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    const bool good = file >= 0 && stored_unpacks(file, fault) && read_grid(file, axes, &grid);
-    if (file >= 0) H5Fclose(file);
-    quiet_end(quiet);
+    bool good = false;
+#pragma omp critical(selas_hdf5)
+    {
+        const struct quiet quiet = quiet_begin();
+        const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+        good = file >= 0 && stored_unpacks(file, fault) && read_grid(file, axes, &grid);
+        if (file >= 0) H5Fclose(file);
+        quiet_end(quiet);
+    }
     selas_status status = SELAS_FILE_ERROR;
     if (good)
         status = keep_grid(path, axes, &grid, rows, messages);
