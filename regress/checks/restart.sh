@@ -169,6 +169,19 @@ cp $good elsewhere.h5
 check "refused: in another folder" sh -c "! '$selas' -q restart elsewhere.h5 2>err && grep -q 'in no folder' err"
 check "refused: overrides" sh -c "'$selas' -q restart $good body%spacing=1 2>err; [ \$? -eq 2 ] && grep -q 'no overrides' err"
 rm -f $bad
+cp -a cut_paper edited
+cp paper.nml kept.nml
+echo '! another deck by now' >>paper.nml
+check "the deck has changed: told, and goes on as it was" sh -c "'$selas' -q restart edited/unfinished/checkpoint.h5 2>err &&
+    grep -q 'paper.nml. has changed since this run was begun' err"
+check "and to the same bits" same whole_paper edited
+mv kept.nml paper.nml
+cp -a cut_paper edited_not
+check "the deck has not changed: nothing is told" sh -c "'$selas' -q restart edited_not/unfinished/checkpoint.h5 2>err && [ ! -s err ]"
+cp -a cut_paper rounded
+check "processors that round otherwise: told where this one has two kinds" sh -c "'$selas' -V >/dev/null;
+    if ! grep -q ' fma ' /proc/cpuinfo || [ -n '${SELAS_PROCESSOR:-}' ]; then exit 0; fi
+    SELAS_PROCESSOR=x86-64 '$selas' -q restart rounded/unfinished/checkpoint.h5 2>err && grep -q 'this run rounds otherwise' err"
 check "what was refused harmed nothing" sh -c "'$selas' -q restart $good"
 check "same bits" same whole_paper cut_paper
 

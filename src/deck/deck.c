@@ -193,16 +193,30 @@ const char *deck_source(const struct deck *deck)
     return deck->source;
 }
 
-selas_status deck_set_source(struct deck *deck, const char *source, struct messages *messages)
+static char *copy_of(const char *text)
 {
-    const size_t length = strlen(source);
-    char *copy = array_new(length + 1, 1);
+    const size_t size = strlen(text) + 1;
+    char *copy = array_new(size, 1);
+    if (copy != NULL) memcpy(copy, text, size);
+    return copy;
+}
+
+selas_status deck_set_source(struct deck *deck, const char *source, const char *origin,
+                             struct messages *messages)
+{
+    char *copy = copy_of(source), *path = origin != NULL && *origin != '\0' ? copy_of(origin) : NULL;
+    array_free(deck->origin);
+    deck->origin = path;
     if (copy == NULL) return fail(messages, SELAS_NO_MEMORY, "not enough memory for the deck");
-    memcpy(copy, source, length + 1);
     array_free(deck->source);
     deck->source = copy;
-    deck->length = length;
+    deck->length = strlen(source);
     return SELAS_OK;
+}
+
+const char *deck_origin(const struct deck *deck)
+{
+    return deck->origin != NULL ? deck->origin : "";
 }
 
 static void message_at(const struct deck *deck, const struct deck_group *group, const char *name,
@@ -247,7 +261,9 @@ void deck_free(struct deck **deck)
     array_free((*deck)->path);
     array_free((*deck)->name);
     array_free((*deck)->directory);
+    free((*deck)->here);
     array_free((*deck)->source);
+    array_free((*deck)->origin);
     array_free((*deck)->first);
     array_free(*deck);
     *deck = NULL;

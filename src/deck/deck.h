@@ -84,16 +84,23 @@ void deck_warning(const struct deck *deck, const struct deck_group *group, const
 const char *deck_source_path(const struct deck *deck); /* of the file, as given */
 const char *deck_name(const struct deck *deck);        /* file name without folder and ".nml" */
 /* Path of a file that the deck names (a word of type WORD_FILE), relative to the deck's folder unless it is
- * absolute; new memory (array_free), NULL if there is none. */
+ * absolute, as seen from where the program stands; new memory (array_free), NULL if there is none. */
 char *deck_resolve(const struct deck *deck, const char *file);
 /* The same from the root, wherever the program stands. */
 char *deck_absolute(const struct deck *deck, const char *file);
+/* The program stands in another folder than when the deck was read. */
+bool deck_moved(const struct deck *deck);
 /* The paths of all files that the deck names, one call each, until one returns false: then, and without
  * memory, false. */
 bool deck_files(const struct deck *deck, bool (*visit)(void *context, const char *path), void *context);
 const char *deck_source(const struct deck *deck); /* the text as read, without overrides */
-/* Gives a deck that was made from an echo the text that it came from. */
-selas_status deck_set_source(struct deck *deck, const char *source, struct messages *messages);
+/* Whole path of the file that it was read from; "": from none. */
+const char *deck_origin(const struct deck *deck);
+/* That file is there, and holds another text than the deck was read from. */
+bool deck_changed(const struct deck *deck);
+/* Gives a deck that was made from an echo the text that it came from, and the path of its file (or "", NULL). */
+selas_status deck_set_source(struct deck *deck, const char *source, const char *origin,
+                             struct messages *messages);
 
 /* Prints the tables of all groups and names in Markdown (the deck reference of doc/reference/deck.md). */
 void deck_reference(FILE *file);

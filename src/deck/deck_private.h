@@ -9,6 +9,8 @@ struct deck {
     char *path;      /* as given; names the deck in messages */
     char *name;      /* file name without folder and ".nml" */
     char *directory; /* folder of the file, "." if none */
+    char *origin;    /* whole path of its file; NULL: of none */
+    char *here;      /* folder of the process when it was read (of the system's memory); NULL: unknown */
     char *source;
     size_t length;        /* of source */
     struct namelist list; /* groups sorted by kind in the table's order, else as in the text */

@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum {
     MOST_BYTES = 16 << 20,
@@ -107,6 +108,7 @@ static selas_status read_text(const char *name, const char *text, size_t length,
     made->path = copy_bytes(name, strlen(name));
     made->name = name_of(name);
     made->directory = directory_of(name);
+    made->here = getcwd(NULL, 0);
     made->source = copy_bytes(text, length);
     made->length = length;
     selas_status status = SELAS_NO_MEMORY;
@@ -178,6 +180,21 @@ selas_status deck_read_file(const char *path, size_t overrides, const char *cons
     char *text = read_file(path, &length, messages);
     if (text == NULL) return messages_since(messages, errors, SELAS_BAD_DECK);
     const selas_status status = deck_read_text(path, text, length, overrides, override, deck, messages);
+    const char *slash = strrchr(path, '/');
+    if (*deck != NULL) (*deck)->origin = deck_absolute(*deck, slash != NULL ? slash + 1 : path);
     array_free(text);
     return status;
+}
+
+bool deck_changed(const struct deck *deck)
+{
+    struct messages unsaid = {0};
+    struct stat about;
+    size_t length = 0;
+    if (deck->origin == NULL || stat(deck->origin, &about) != 0 || !S_ISREG(about.st_mode)) return false;
+    char *text = read_file(deck->origin, &length, &unsaid);
+    const bool changed = text != NULL && (length != deck->length || memcmp(text, deck->source, length) != 0);
+    array_free(text);
+    messages_free(&unsaid);
+    return changed;
 }

@@ -17,7 +17,7 @@ static char *join(const char *folder, const char *file)
     return path;
 }
 
-char *deck_resolve(const struct deck *deck, const char *file)
+static char *relative(const struct deck *deck, const char *file)
 {
     const bool here = *file == '/' || strcmp(deck->directory, ".") == 0;
     if (!here) return join(deck->directory, file);
@@ -25,6 +25,28 @@ char *deck_resolve(const struct deck *deck, const char *file)
     char *path = array_new(size, 1);
     if (path != NULL) memcpy(path, file, size);
     return path;
+}
+
+char *deck_absolute(const struct deck *deck, const char *file)
+{
+    char *path = relative(deck, file);
+    if (path == NULL || *path == '/' || deck->here == NULL) return path;
+    char *whole = join(deck->here, path);
+    array_free(path);
+    return whole;
+}
+
+bool deck_moved(const struct deck *deck)
+{
+    char *folder = getcwd(NULL, 0);
+    const bool moved = deck->here != NULL && (folder == NULL || strcmp(folder, deck->here) != 0);
+    free(folder);
+    return moved;
+}
+
+char *deck_resolve(const struct deck *deck, const char *file)
+{
+    return deck_moved(deck) ? deck_absolute(deck, file) : relative(deck, file);
 }
 
 bool deck_files(const struct deck *deck, bool (*visit)(void *context, const char *path), void *context)
@@ -40,17 +62,6 @@ bool deck_files(const struct deck *deck, bool (*visit)(void *context, const char
         }
     }
     return true;
-}
-
-char *deck_absolute(const struct deck *deck, const char *file)
-{
-    char *path = deck_resolve(deck, file);
-    if (path == NULL || *path == '/') return path;
-    char *folder = getcwd(NULL, 0);
-    char *whole = folder == NULL ? NULL : join(folder, path);
-    free(folder);
-    array_free(path);
-    return whole;
 }
 
 static void write_text(const char *text, FILE *file)

@@ -102,7 +102,8 @@ static selas_status read_kept(selas_simulation *simulation, const struct kept_de
     selas_status status = deck_read_text(name, kept->text, strlen(kept->text), count, overrides,
                                          &simulation->deck, &simulation->messages);
     free(name);
-    if (status == SELAS_OK) status = deck_set_source(simulation->deck, kept->source, &simulation->messages);
+    if (status == SELAS_OK)
+        status = deck_set_source(simulation->deck, kept->source, kept->origin, &simulation->messages);
     return status;
 }
 
@@ -142,6 +143,12 @@ selas_status simulation_open_checkpoint(const char *path, struct ranks *ranks, s
     status = kept_deck_of_checkpoint(path, ranks, &kept, &simulation->messages);
     if (status == SELAS_OK) status = find_results(simulation, path);
     if (status == SELAS_OK) status = read_kept(simulation, &kept, 0, NULL);
+    if (status == SELAS_OK && deck_changed(simulation->deck))
+        warn(&simulation->messages,
+             "the deck '%s' has changed since this run was begun, which goes on as it was begun: for the "
+             "changed deck a "
+             "run of its own would be right",
+             kept.origin);
     kept_deck_free(&kept);
     return status == SELAS_OK ? simulation_scene(simulation) : status;
 }

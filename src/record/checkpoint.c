@@ -39,18 +39,20 @@ enum figure {
 
 /* --- Writing --- */
 
+enum { TEXTS = 4 };
+
 struct text_piece {
     const char *name, *text;
 };
 
 /* Writes or compares everything; together. */
 static bool walk_file(struct walk *walk, struct recorder *recorder, struct state *state,
-                      const struct text_piece text[3], double figures[FIGURES])
+                      const struct text_piece text[TEXTS], double figures[FIGURES])
 {
     for (bool more = walk_begin(walk); more; more = walk_again(walk)) {
         walk_real(walk, "figures", 0, "", figures, FIGURES);
         walk_recorder(walk, recorder, state, (size_t)figures[STEP] + 1, (size_t)figures[ENTRIES]);
-        for (size_t i = 0; i < 3; i++)
+        for (size_t i = 0; i < TEXTS; i++)
             walk_text(walk, text[i].name, text[i].text);
     }
     return walk_good(walk);
@@ -61,9 +63,10 @@ static selas_status write_checked(const char *temporary, struct recorder *record
                                   double figures[FIGURES], const char *deck, struct messages *messages)
 {
     const struct deck *source = recorder->scene->deck;
-    const struct text_piece text[3] = {{"deck", deck},
-                                       {"source", source != NULL ? deck_source(source) : ""},
-                                       {"name", source != NULL ? deck_name(source) : ""}};
+    const struct text_piece text[TEXTS] = {{"deck", deck},
+                                           {"source", source != NULL ? deck_source(source) : ""},
+                                           {"name", source != NULL ? deck_name(source) : ""},
+                                           {"origin", source != NULL ? deck_origin(source) : ""}};
     struct ranks *ranks = recorder->scene->ranks;
     struct walk writing = {.ranks = ranks, .path = temporary, .mode = SET_WRITE, .head = CHECKPOINT_HEAD},
                 reading = {.ranks = ranks, .path = temporary, .mode = SET_COMPARE};
@@ -289,8 +292,9 @@ selas_status checkpoint_read(struct recorder *recorder, struct state *state, str
                              const char *path, struct messages *messages)
 {
     struct ranks *ranks = recorder->scene->ranks;
-    char *text = deck_echo(recorder->scene->deck, messages), why[200] = "";
-    const bool whole = checkpoint_whole(path, ranks, why, sizeof why);
+    char *text = deck_echo(recorder->scene->deck, messages), why[200] = "",
+         rounding[CHECKPOINT_ROUNDING] = "";
+    const bool whole = checkpoint_whole(path, ranks, why, sizeof why, rounding);
     const char *wrong = text == NULL ? "there is no memory for its deck" : whole ? NULL : why;
     int error = text == NULL ? ENOMEM : 0;
     double figures[FIGURES] = {0};
@@ -300,6 +304,13 @@ selas_status checkpoint_read(struct recorder *recorder, struct state *state, str
              "the checkpoint '%s' was written by commit %s, this is %s: what follows may differ from what "
              "that program would have computed; to go on with that one would be right",
              path, why, build_commit());
+    if (wrong == NULL && rounding[0] != '\0' && strcmp(rounding, checkpoint_rounding()) != 0)
+        warn(messages,
+             "the checkpoint '%s' was written on a processor with %s multiplication and addition, this run "
+             "rounds "
+             "otherwise: what follows differs in the last bits; %s would be right",
+             path, strcmp(rounding, "plain") == 0 ? "separate" : "fused",
+             strcmp(rounding, "plain") == 0 ? "SELAS_PROCESSOR=x86-64" : "a processor with AVX2 and FMA");
     if (wrong == NULL) wrong = read_file(recorder, state, path, text, figures, &error, messages);
     free(text);
     selas_status status = SELAS_OK;

@@ -4,6 +4,7 @@
  *   version 0.1.0
  *   commit 1234567
  *   bytes little-endian
+ *   rounding fused       or plain: of the kernels (base/processor.h); of older ones not there
  *   size 123456          of the whole file
  *   body 0123456789abcdef     CRC-64 of all that follows the head
  *   head 0123456789abcdef     CRC-64 of the lines before this one
@@ -13,6 +14,7 @@
 #include "record/run_file.h"
 
 #include "base/crc64.h"
+#include "base/processor.h"
 #include "record/parts.h"
 
 #include <errno.h>
@@ -32,6 +34,11 @@ static const char *byte_order(void)
     unsigned char first;
     memcpy(&first, &one, 1);
     return first == 1 ? "little-endian" : "big-endian";
+}
+
+const char *checkpoint_rounding(void)
+{
+    return processor_taken() == PROCESSOR_PLAIN ? "plain" : "fused";
 }
 
 /* CRC of the bytes from .. end - 1 of the file; false if they cannot be read. */
@@ -91,10 +98,10 @@ static uint64_t text_checksum(const char *text, size_t length)
 static bool write_head(int file, uint64_t size, uint64_t body)
 {
     char head[CHECKPOINT_HEAD] = {0};
-    const int length =
-        snprintf(head, sizeof head,
-                 "%s%d\nversion %s\ncommit %.60s\nbytes %s\nsize %" PRIu64 "\nbody %016" PRIx64 "\n",
-                 first_line, FORMAT, selas_version(), build_commit(), byte_order(), size, body);
+    const int length = snprintf(
+        head, sizeof head,
+        "%s%d\nversion %s\ncommit %.60s\nbytes %s\nrounding %s\nsize %" PRIu64 "\nbody %016" PRIx64 "\n",
+        first_line, FORMAT, selas_version(), build_commit(), byte_order(), checkpoint_rounding(), size, body);
     snprintf(head + length, sizeof head - (size_t)length, "head %016" PRIx64 "\n",
              text_checksum(head, (size_t)length));
     return pwrite(file, head, sizeof head, 0) == (ssize_t)sizeof head;
@@ -204,7 +211,8 @@ static bool body_fits(int file, const char *head, bool fits, struct ranks *ranks
     return false;
 }
 
-bool checkpoint_whole(const char *path, struct ranks *ranks, char *why, size_t size)
+bool checkpoint_whole(const char *path, struct ranks *ranks, char *why, size_t size,
+                      char rounding[CHECKPOINT_ROUNDING])
 {
     char head[CHECKPOINT_HEAD + 1] = {0};
     const int file = open(path, O_RDONLY | O_CLOEXEC);
@@ -213,6 +221,7 @@ bool checkpoint_whole(const char *path, struct ranks *ranks, char *why, size_t s
     good = good && head_fits(file, head, why, size);
     good = body_fits(file, head, good, ranks, why, size);
     if (good) line_of(head, "commit", why, size);
+    if (good) line_of(head, "rounding", rounding, CHECKPOINT_ROUNDING);
     if (file >= 0) close(file);
     return good;
 }

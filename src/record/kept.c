@@ -81,19 +81,23 @@ bool kept_files_text(const struct scene *scene, char text[KEPT_CHECKSUM])
 selas_status kept_deck_of_checkpoint(const char *path, struct ranks *ranks, struct kept_deck *kept,
                                      struct messages *messages)
 {
-    char why[200] = "it holds no deck";
+    char why[200] = "it holds no deck", rounding[CHECKPOINT_ROUNDING];
     *kept = (struct kept_deck){0};
-    if (checkpoint_whole(path, ranks, why, sizeof why)) {
+    if (checkpoint_whole(path, ranks, why, sizeof why, rounding)) {
         snprintf(why, sizeof why, "it holds no deck");
-        const struct quiet quiet = quiet_begin();
-        const hid_t file = hdf_open_file(path);
-        if (file >= 0) {
-            kept->text = set_text(file, "deck");
-            kept->source = set_text(file, "source");
-            kept->name = set_text(file, "name");
-            H5Fclose(file);
+#pragma omp critical(selas_hdf5)
+        {
+            const struct quiet quiet = quiet_begin();
+            const hid_t file = hdf_open_file(path);
+            if (file >= 0) {
+                kept->text = set_text(file, "deck");
+                kept->source = set_text(file, "source");
+                kept->name = set_text(file, "name");
+                kept->origin = set_text(file, "origin");
+                H5Fclose(file);
+            }
+            quiet_end(quiet);
         }
-        quiet_end(quiet);
     }
     if (kept->text != NULL && kept->source != NULL && kept->name != NULL && kept->text[0] != '\0')
         return SELAS_OK;
@@ -156,6 +160,7 @@ void kept_deck_free(struct kept_deck *kept)
     free(kept->text);
     free(kept->source);
     free(kept->name);
+    free(kept->origin);
     free(kept->files);
     *kept = (struct kept_deck){0};
 }

@@ -10,6 +10,7 @@ struct kept_deck {
     char *text;   /* with all defaults and overrides: runs to the same bits */
     char *source; /* as it was read */
     char *name;   /* file name without folder and ".nml" */
+    char *origin; /* of a checkpoint: whole path of the file that it was read from, or ""; NULL: not kept */
     char *files;  /* of run.h5: kept_files_text() of that run; else NULL */
 };
 
