@@ -222,6 +222,16 @@ told "the time error of leapfrog" "time error of scheme 'leapfrog' stays .* by a
 untold "a shorter step" stepping%scheme=leapfrog initial%centre=2,2 scene%end_time=14 stepping%safety=.21
 told "waves on total-Lagrangian points" "waves on the points of variant 'total-lagrangian' err by up to 0.[1-9]" initial%centre=2,2 method%name=sph method%gradient=quadratic
 untold "longer waves on central differences" initial%centre=2,2 method%name=sph method%gradient=central
+# shellcheck disable=SC2086 # words
+(
+    # .08 of waves, .1 of one-sided gradients
+    stress="initial%centre=2,2 method%name=sph method%gradient=central profile%name=p profile%points=5 profile%times=1 profile%fields"
+    told "stresses of particles beside a face" "stresses and strains that profiles and snapshots show err by up to about 0.18 within a spacing of faces" $stress=stress profile%from=1,.1 profile%to=3,.1
+    untold "velocities there" $stress=velocity profile%from=1,.1 profile%to=3,.1
+    untold "stresses inside" $stress=stress profile%from=1,1.5 profile%to=3,2.5
+    exit $failures
+)
+failures=$?
 updated="stepping%scheme=rk4 initial%centre=2,2 method%name=sph method%variant=updated-lagrangian method%artificial_stress=0 method%viscosity_beta=0"
 # shellcheck disable=SC2086 # words
 {

@@ -266,6 +266,70 @@ static double error_of_sent(const struct scene *scene, const struct wave_law *wa
     return sent > 0 ? error_of_waves(scene, &law, k, way) + error_at_bare(scene, waves, k, way) : 0;
 }
 
+/* What strains err by more, at a place (none: anywhere) within a spacing of a face that is no mirror plane: more where
+ * a patch, whose edges are jumps, presses on it. */
+static double error_beside_faces(const struct scene *scene, const double *place)
+{
+    static const double one_sided = .1, jumps = .3;
+    const struct body *body = &scene->body;
+    double most = 0;
+    for (int face = 0; face < 2 * scene->dimension; face++) {
+        const int axis = face / 2;
+        if (boundary_mirrors(&scene->boundary[face])) continue;
+        if (place != NULL && fabs(place[axis] - face_plane(body, (enum face)face)) > body->spacing) continue;
+        most = fmax(most, one_sided);
+        for (size_t k = 0; k < scene->loads; k++)
+            if (has_patch(&scene->load[k]) && (int)scene->load[k].face == face) most = jumps;
+    }
+    return most;
+}
+
+/* Are strains, or what follows from them, shown by profiles and snapshots? What they err by beside faces, in *more. */
+static bool shows_strains(const struct scene *scene, double *more)
+{
+    static const unsigned strains =
+        1U << SELAS_STRESS | 1U << SELAS_STRAIN | 1U << SELAS_PRESSURE | 1U << SELAS_ENERGY;
+    bool shown = false;
+    *more = 0;
+    for (size_t k = 0; k < scene->profiles; k++) {
+        if ((scene->profile[k].fields & strains) == 0) continue;
+        shown = true;
+        for (size_t i = 0; i < scene->profile[k].points; i++) {
+            double deck[3] = {0.0}, place[3];
+            profile_position(&scene->profile[k], i, deck);
+            body_from_deck(&scene->body, deck, place);
+            *more = fmax(*more, error_beside_faces(scene, place));
+        }
+    }
+    for (size_t k = 0; k < scene->snapshots; k++) {
+        if ((scene->snapshot[k].fields & strains) == 0) continue;
+        shown = true;
+        if (scene->snapshot[k].whole) *more = fmax(*more, error_beside_faces(scene, NULL));
+    }
+    return shown;
+}
+
+/* Strains of particles, where velocities err so much by the state at t = 0 and by what is sent. Those that loads give
+ * a body that nothing holds are largely of the whole body, of which strains know nothing
+ * (doc/theory/sph-total-lagrangian.md, section 6). */
+static void look_at_strains(struct adviser *adviser, const struct model *model, double first, double sent)
+{
+    static const double flying = 5;
+    const struct scene *scene = adviser->scene;
+    double more;
+    bool free = true;
+    if (strcmp(model->method->variant, "total-lagrangian") != 0 || !shows_strains(scene, &more)) return;
+    for (int face = 0; face < 2 * scene->dimension; face++)
+        free = free && boundary_is_free(&scene->boundary[face]);
+    const double error = fmax(first, sent * (free ? flying : 1)) + more;
+    if (error > WAVES_SEEN && error > fmax(first, sent))
+        advise(adviser,
+               "stresses and strains that profiles and snapshots show err by up to about %.2g%s; variant = "
+               "'consistent'%s would be right",
+               fmin(1, error), more > 0 ? " within a spacing of faces" : "",
+               more > 0 ? ", or places farther inside with finer points," : ", or finer points,");
+}
+
 void look_at_method(struct adviser *adviser, const struct model *model)
 {
     const struct scene *scene = adviser->scene;
@@ -274,8 +338,8 @@ void look_at_method(struct adviser *adviser, const struct model *model)
     if (papers) look_at_pressed_faces(adviser);
     const double faces =
         papers ? error_at_faces(scene, model->waves.ends, plane_wave_speed(scene) * scene->end_time) : 0;
-    const double error =
-        fmax(error_of_first(scene, &model->waves), error_of_sent(scene, &model->waves)) + faces;
+    const double first = error_of_first(scene, &model->waves), sent = error_of_sent(scene, &model->waves);
+    const double error = fmax(first, sent) + faces;
     const bool remains = model->waves.floor + model->waves.shear > LASTING || faces > WAVES_SEEN;
     const char *better = error > WAVES_SEEN ? better_points(adviser, model) : "";
     if (error > WAVES_SEEN)
@@ -284,6 +348,7 @@ void look_at_method(struct adviser *adviser, const struct model *model)
                "end_time%s; %s%s%s would be right",
                model->method->variant, fmin(1, error), remains ? ", much of it whatever the spacing" : "",
                remains && *better ? "" : "finer points", remains || !*better ? "" : " or ", better);
+    look_at_strains(adviser, model, first, sent);
     look_at_alternation(adviser, model);
     look_at_bending(adviser, model, fmax(error, WAVES_SEEN));
 }

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Handles that are open: others, of a simulation that was closed or never opened, are not looked into. The lock is that of
- * simulation->inside, too. */
+/* Handles that are open: others, of a simulation that was closed or never opened, are not looked into. The lock is that
+ * of simulation->inside, too. */
 static struct {
     pthread_mutex_t lock;
     const selas_simulation **of;
