@@ -118,10 +118,8 @@ selas_status selas_set_load(selas_simulation *simulation, const char *load, doub
     struct driven_load wanted = {.value = value};
     selas_status status = simulation_scene(simulation);
     if (status == SELAS_OK) status = find_load(simulation, load, &wanted.load);
+    if (status == SELAS_OK) status = shared_value(simulation, load, value);
     if (status != SELAS_OK) return status;
-    if (!isfinite(value))
-        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
-                    "the value of load '%s' is not a finite number", load);
     if (simulation->finished)
         return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
                     "the histories are finished; no step can follow");

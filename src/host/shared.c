@@ -3,6 +3,8 @@
 #include "parallel/ranks.h"
 #include "scene/ground.h"
 
+#include <math.h>
+
 void simulation_share(selas_simulation *simulation, struct ranks *ranks)
 {
     simulation->ranks = ranks;
@@ -84,4 +86,17 @@ selas_status shared_prepared(selas_simulation *simulation, selas_status status)
         status = fail(&simulation->messages, SELAS_FILE_ERROR,
                       "values of the &model cannot be read any more, or there is no memory for them");
     return ranks_agree(simulation->ranks, status, &simulation->messages);
+}
+
+selas_status shared_value(selas_simulation *simulation, const char *load, double value)
+{
+    const bool sound = isfinite(value);
+    double all[3] = {sound ? 0 : 1, sound ? value : 0, sound ? -value : 0};
+    ranks_largest(simulation->ranks, 3, all);
+    if (all[0] > 0)
+        return fail(&simulation->messages, SELAS_BAD_ARGUMENT,
+                    "the value of load '%s' is not a finite number", load);
+    if (all[1] + all[2] == 0) return SELAS_OK;
+    return fail(&simulation->messages, SELAS_BAD_ARGUMENT, "ranks give load '%s' values from %.6g to %.6g",
+                load, -all[2], all[1]);
 }

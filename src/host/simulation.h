@@ -159,6 +159,8 @@ void shared_add_times(selas_simulation *simulation, double wall, double waited);
 void shared_gather_times(selas_simulation *simulation);
 /* The same for a call: "WHAT: on one rank only". */
 selas_status shared_alone(selas_simulation *simulation, const char *what);
+/* Together: SELAS_BAD_ARGUMENT on all ranks where a load's value is not finite on one, or not the same on all. */
+selas_status shared_value(selas_simulation *simulation, const char *load, double value);
 
 /* host/trial.c: a trial_run (accuracy/trial.h). */
 selas_status host_trial(struct scene *scene, struct exact *exact, double *error, struct history_file *kept,

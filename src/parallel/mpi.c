@@ -4,6 +4,7 @@
 #include "base/memory.h"
 
 #include <mpi.h>
+#include <sched.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -30,6 +31,22 @@ static int length_of(size_t left)
     return (int)(left < LONGEST ? left : LONGEST);
 }
 
+/* Waits for all of them, and lets other processes have the processor meanwhile: MPICH (4.0) would keep it, so that
+ * with more ranks than processors those waited for come too late. */
+static void wait_for(int count, MPI_Request *request, MPI_Status *status)
+{
+    for (int all = 0; !all;) {
+        MPI_Testall(count, request, &all, status);
+        if (!all) sched_yield();
+    }
+}
+
+static void wait_for_one(MPI_Request request)
+{
+    MPI_Status status;
+    wait_for(1, &request, &status);
+}
+
 struct ranks *ranks_begin(void)
 {
     int threads, count;
@@ -50,7 +67,9 @@ void ranks_end(struct ranks **ended)
     if (ranks != NULL && ranks->comm != MPI_COMM_NULL) MPI_Comm_free(&ranks->comm);
     array_free(ranks);
     *ended = NULL;
-    MPI_Barrier(MPI_COMM_WORLD); /* a failed rank that ends ends the others, who may have more to say */
+    MPI_Request all_ended; /* a failed rank that ends ends the others, who may have more to say */
+    MPI_Ibarrier(MPI_COMM_WORLD, &all_ended);
+    wait_for_one(all_ended);
     MPI_Finalize();
 }
 
@@ -115,7 +134,9 @@ static void reduce(struct ranks *ranks, size_t n, double *value, MPI_Op operatio
 {
     if (ranks == NULL) return;
     const double begun = MPI_Wtime();
-    MPI_Allreduce(MPI_IN_PLACE, value, (int)n, MPI_DOUBLE, operation, ranks->comm);
+    MPI_Request reduced;
+    MPI_Iallreduce(MPI_IN_PLACE, value, (int)n, MPI_DOUBLE, operation, ranks->comm, &reduced);
+    wait_for_one(reduced);
     ranks->waited += MPI_Wtime() - begun;
 }
 
@@ -131,8 +152,11 @@ void ranks_sum(struct ranks *ranks, size_t n, double *value)
 
 void ranks_spread(struct ranks *ranks, int from, void *data, size_t bytes)
 {
-    for (size_t at = 0; ranks != NULL && at < bytes; at += LONGEST)
-        MPI_Bcast((char *)data + at, length_of(bytes - at), MPI_BYTE, from, ranks->comm);
+    for (size_t at = 0; ranks != NULL && at < bytes; at += LONGEST) {
+        MPI_Request spread;
+        MPI_Ibcast((char *)data + at, length_of(bytes - at), MPI_BYTE, from, ranks->comm, &spread);
+        wait_for_one(spread);
+    }
 }
 
 static MPI_Request *next(struct ranks *ranks)
@@ -170,7 +194,7 @@ void ranks_arrive(struct ranks *ranks)
 {
     if (ranks == NULL) return;
     const double begun = MPI_Wtime();
-    MPI_Waitall(ranks->under_way, ranks->request, ranks->status);
+    wait_for(ranks->under_way, ranks->request, ranks->status);
     ranks->under_way = 0;
     ranks->waited += MPI_Wtime() - begun;
 }
@@ -200,12 +224,12 @@ static void take_messages(struct ranks *ranks, int from, struct messages *messag
 {
     unsigned long size = messages->text == NULL ? 0 : messages->length - ranks->told;
     char named[64];
-    MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, from, ranks->comm);
+    ranks_spread(ranks, from, &size, sizeof size);
     char *text = array_new(size + 1, 1);
     if (text == NULL) MPI_Abort(ranks->comm, 1);
     if (ranks->me == from && size > 0) memcpy(text, messages->text + ranks->told, size);
     if (ranks->me == from) ranks->told += size;
-    MPI_Bcast(text, (int)size, MPI_CHAR, from, ranks->comm);
+    ranks_spread(ranks, from, text, size);
     snprintf(named, sizeof named, "on rank %d of %d:", from, ranks->count);
     if (ranks->me == 0 && size > 0) {
         messages_add(messages, false, false, named);
@@ -218,9 +242,11 @@ selas_status ranks_agree(struct ranks *ranks, selas_status status, struct messag
 {
     if (ranks == NULL || ranks_idle(ranks)) return status;
     int first = status == SELAS_OK ? ranks->count : ranks->me, agreed = (int)status;
-    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, ranks->comm);
+    MPI_Request reduced;
+    MPI_Iallreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, ranks->comm, &reduced);
+    wait_for_one(reduced);
     if (first == ranks->count) return SELAS_OK;
-    MPI_Bcast(&agreed, 1, MPI_INT, first, ranks->comm);
+    ranks_spread(ranks, first, &agreed, sizeof agreed);
     if (first > 0 && messages != NULL) take_messages(ranks, first, messages);
     return (selas_status)agreed;
 }

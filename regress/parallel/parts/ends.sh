@@ -33,6 +33,29 @@ verdict $? "numbers beyond single precision on the last rank alone are told"
 quiet 3 regress/parallel/tall.nml scene%end_time=60 stepping%time_step=.3 stepping%force=T output%directory="$work/wild"
 [ $? = 1 ] && [ "$(grep -c '^error: the run went unstable at .* (rank [0-2]), .*' "$work/log")" = 1 ]
 verdict $? "an unstable run ends all ranks, with place and time"
+planted() { # planted WHAT WORDS...: a force so large that numbers end where the last of 3 ranks alone has it
+    what=$1
+    shift
+    rm -rf "$work/spoilt"
+    timeout "${REGRESS_TIMEOUT:-60}" $mpirun -n 3 "$build/selas-mpi" -q "$@" output%checkpoint_every=50 output%directory="$work/spoilt" >"$work/log" 2>&1 &
+    launcher=$!
+    while kill -0 $launcher 2>/dev/null && ! [ -e "$work/spoilt/unfinished/checkpoint.h5" ]; do sleep .1; done
+    began=$(date +%s)
+    wait $launcher
+    bad=$?
+    took=$(($(date +%s) - began))
+    [ $bad = 1 ] && [ $took -le 10 ] && [ "$(grep -c '^error: ' "$work/log")" = 1 ] && [ "$(grep -c '^the last good checkpoint' "$work/log")" = 1 ] &&
+        grep -qE "^error: the run went unstable at t = .* \(step [0-9]+\): the (state overflows|(state|energy) is not finite); it began about .*$place; likely: " "$work/log"
+    verdict $? "$what: numbers that end on the last of 3 ranks alone end all, with place and time ($took s)" || sed 's/^/#   /' "$work/log" | head -8
+}
+place=' \(rank 2\), by now at [1-9][0-9]? points of that rank'
+planted "a lattice" regress/parallel/tall.nml "load(2)%amplitude=1e157"
+planted "the exact mass" regress/parallel/tall-exact.nml "load(3)%amplitude=1e157" "load(3)%centre=.9,47" "load(3)%delay=1.6"
+planted "general ground" regress/parallel/tall-plane.nml load%amplitude=1e157 load%centre=2.1,14.2
+place=' \(rank 2\), by now at [1-9][0-9]* points of that rank'
+planted "points" regress/parallel/tall-sph.nml "load(2)%moment=1e200,0,0,0,0,0" "load(2)%centre=1.1,.7,8" "load(2)%width=.02" "load(2)%delay=1"
+place=', by now at [1-9][0-9]* of 600 points' # all ranks have all
+planted "particles" regress/parallel/moving-particles.nml "load(1)%amplitude=1e200" "load(1)%width=.02" "load(1)%delay=1"
 leg TERM 2 regress/parallel/tall.nml scene%end_time=5000 output%checkpoint_every=20 output%directory="$work/chain"
 printf x | dd of="$work/chain/unfinished/checkpoint.h5" bs=1 seek=5000 conv=notrunc 2>/dev/null
 quiet 3 restart "$work/chain/unfinished/checkpoint.h5"

@@ -54,3 +54,10 @@ host "a host in C" 3 "$work/shared_column"
 timeout 60 $mpirun -n 3 "$work/shared_column" regress/cases/half-space-pml/deck.nml >"$work/log" 2>&1
 [ "$(grep -c '^error: 1 of the .* open it with as many' "$work/log")" = 1 ]
 verdict $? "a host with too many ranks: one line"
+spoils() { # spoils VALUE PATTERN WHAT: a load whose value is another on the last of 3 ranks
+    timeout 60 $mpirun -n 3 "$work/shared_column" regress/parallel/tall.nml "$1" >"$work/log" 2>&1
+    [ $? = 1 ] && [ "$(grep -c '^error: ' "$work/log")" = 1 ] && grep -q "^error: $2" "$work/log"
+    verdict $? "$3: one line on 3 ranks" || sed 's/^/#   /' "$work/log" | head -5
+}
+spoils nan "the value of load '1' is not a finite number" "a host that sets a load to no number on one rank"
+spoils 0.1 "ranks give load '1' values from 0 to 0.1" "a host whose ranks set a load to different values"
