@@ -132,7 +132,7 @@ chain() { # chain WHAT WORDS...: one process to $one ranks, to $two, killed, to 
     verdict $? "$what: one process, $one ranks, $two, killed, one process: same bits"
     [ "$bad" = 0 ] || { echo "#   $bad"; sed 's/^/#   /' "$work/log" | head -20; }
 }
-kills() { # kills HOW_MANY WORDS...: ranks of a run that goes on each time, killed at times drawn by chance
+kills() { # kills HOW_MANY WORDS...: a rank, or each third time all, of a run that goes on each time, killed at times drawn by chance
     wanted=$1 killed=0 worst=0 legs=0 bad=0
     shift
     rm -rf "$work/alone" "$work/chain"
@@ -149,8 +149,10 @@ kills() { # kills HOW_MANY WORDS...: ranks of a run that goes on each time, kill
         fi
         launcher=$!
         sleep "$(awk -v whole=$whole -v seed="$(date +%N)" 'BEGIN { srand(seed); print whole / 1000 * rand() }')"
-        victim=$(ranks_of | awk -v n=$((legs % ranks + 1)) 'NR == n')
-        [ -z "$victim" ] || kill -KILL "$victim" 2>/dev/null || victim=
+        victim=
+        for rank in $(ranks_of | awk -v n=$((legs % ranks + 1)) -v all=$((killed % 3 == 2)) 'all || NR == n'); do
+            ! kill -KILL "$rank" 2>/dev/null || victim=$rank
+        done
         struck=$(date +%s)
         if wait $launcher; then
             same_run || bad=differs # over before it was struck
@@ -164,7 +166,7 @@ kills() { # kills HOW_MANY WORDS...: ranks of a run that goes on each time, kill
     [ ! -e "$work/chain/unfinished/checkpoint.h5" ] || "$build/selas" -q restart "$work/chain/unfinished/checkpoint.h5" >"$work/log" 2>&1 || bad=restart
     [ "$bad" != 0 ] || [ ! -e "$work/chain/report.txt" ] || same_run || bad=differs
     [ "$bad" = 0 ] && [ $killed = "$wanted" ] && [ $worst -le 10 ]
-    verdict $? "$killed ranks killed at times drawn by chance in $legs runs: all ended within 10 s ($worst s), the run goes on, same bits"
+    verdict $? "$killed kills at times drawn by chance, each third of all ranks, in $legs runs: all ended within 10 s ($worst s), the run goes on, same bits"
     [ "$bad" = 0 ] || { echo "#   $bad"; sed 's/^/#   /' "$work/log" | head -20; }
 }
 same_run() { # what is in the folder `chain` against `alone`
@@ -172,6 +174,20 @@ same_run() { # what is in the folder `chain` against `alone`
         cmp -s "$file" "$work/chain/$(basename "$file")" || return 1
     done
     [ ! -e "$work/alone/run.xdmf" ] || same_fields chain
+}
+
+linked="-Lbuild_ -lselas-mpi -Wl,-rpath,build_ ${LDFLAGS:-}"
+linked=$(echo "$linked" | sed "s#build_#$(realpath "$build")#g")
+make_host() { # make_host NAME: a host of regress/hosts in C, into the work folder
+    # shellcheck disable=SC2086
+    "$mpicc" -std=c17 -Wall -Werror -Isrc -o "$work/$1" "regress/hosts/$1.c" $linked
+}
+host() { # host WHAT RANKS PROGRAM DECK: all ranks see what one alone sees
+    for n in 1 $2; do
+        timeout 60 $mpirun -n "$n" "$3" "$4" >"$work/host$n" 2>"$work/log" || break
+    done
+    [ "$(grep -c . "$work/host$2")" = "$2" ] && [ "$(sed 's/^rank [0-9]*://' "$work/host1" "$work/host$2" | sort -u | wc -l)" = 1 ]
+    verdict $? "$1: $2 ranks see what one sees" || sed 's/^/#   /' "$work/log" | head -5
 }
 
 # Scenes: sources early, so that they act on all parts of a body in few steps

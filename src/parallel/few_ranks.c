@@ -1,5 +1,7 @@
-/* Fewer ranks where the body has no work for all of them. */
+/* Fewer ranks where the body has no work for all of them; what those that work let expect. */
 #include "parallel/few_ranks.h"
+
+#include <stdio.h>
 
 selas_status ranks_at_most(struct ranks *ranks, size_t places, const char *what, struct messages *messages)
 {
@@ -31,4 +33,22 @@ void ranks_deal(size_t places, double (*cost)(const void *context, size_t place)
         sum += here;
     }
     bound[ranks] = places;
+}
+
+struct ranks_outlook ranks_look_ahead(struct ranks *ranks, double work, double seconds, double alone)
+{
+    double most[2] = {work, seconds}, sum = work;
+    ranks_largest(ranks, 2, most);
+    ranks_sum(ranks, 1, &sum);
+    const double count = ranks_count(ranks);
+    return (struct ranks_outlook){.balance = sum / count / most[0], .efficiency = alone / count / most[1]};
+}
+
+void ranks_tell_outlook(const struct ranks_outlook *outlook, const char *with,
+                        void (*tell)(void *context, const char *key, const char *value), void *context)
+{
+    char text[200];
+    snprintf(text, sizeof text, "%.2f (balance %.2f; %s, %g GB/s and %g us a message)", outlook->efficiency,
+             outlook->balance, with, 1e-9 / RANKS_BYTE, RANKS_MESSAGE * 1e6);
+    tell(context, "efficiency expected", text);
 }

@@ -13,4 +13,18 @@ selas_status ranks_at_most(struct ranks *ranks, size_t places, const char *what,
 void ranks_deal(size_t places, double (*cost)(const void *context, size_t place), const void *context,
                 size_t ranks, size_t *bound);
 
+/* Seconds of a byte and of a message that the models of cost assume (doc/developers/ranks.md). */
+#define RANKS_BYTE 5e-10
+#define RANKS_MESSAGE 2e-6
+/* What the shares of the ranks let expect by these models: mean over largest work, and seconds of one process over
+ * ranks times those of the longest rank. */
+struct ranks_outlook {
+    double balance, efficiency;
+};
+/* Together: from the work (any unit, > 0) and the seconds of this rank, and the seconds of one process. */
+struct ranks_outlook ranks_look_ahead(struct ranks *ranks, double work, double seconds, double alone);
+/* Of the plan; `with` names the measured times. */
+void ranks_tell_outlook(const struct ranks_outlook *outlook, const char *with,
+                        void (*tell)(void *context, const char *key, const char *value), void *context);
+
 #endif

@@ -1,20 +1,10 @@
 # shellcheck shell=sh disable=SC2086,SC2154
 # Hosts on ranks; checkpoints that they write.
-host() { # host WHAT RANKS PROGRAM: all ranks see what one alone sees
-    for n in 1 $2; do
-        timeout 60 $mpirun -n "$n" "$3" regress/parallel/tall.nml >"$work/host$n" 2>"$work/log" || break
-    done
-    [ "$(grep -c . "$work/host$2")" = "$2" ] && [ "$(sed 's/^rank [0-9]*://' "$work/host1" "$work/host$2" | sort -u | wc -l)" = 1 ]
-    verdict $? "$1: $2 ranks see what one sees" || sed 's/^/#   /' "$work/log" | head -5
-}
-linked="-Lbuild_ -lselas-mpi -Wl,-rpath,build_ ${LDFLAGS:-}"
-linked=$(echo "$linked" | sed "s#build_#$(realpath "$build")#g")
 sed 's/use mpi_f08/use mpi/; s/%mpi_val//' regress/hosts/coupled_ranks.f90 >"$work/coupled_mpi.f90"
 # shellcheck disable=SC2086
 "$mpifc" -std=f2018 -Wall -Wno-compare-reals -I"$build" -o "$work/coupled_f08" regress/hosts/coupled_ranks.f90 "$build/libselas_fortran.a" $linked &&
     "$mpifc" -I"$build" -o "$work/coupled_mpi" "$work/coupled_mpi.f90" "$build/libselas_fortran.a" $linked &&
-    "$mpicc" -std=c17 -Wall -Werror -Isrc -o "$work/shared_column" regress/hosts/shared_column.c $linked &&
-    "$mpicc" -std=c17 -Wall -Werror -Isrc -o "$work/shared_checkpoint" regress/hosts/shared_checkpoint.c $linked
+    make_host shared_column && make_host shared_checkpoint
 verdict $? "hosts on ranks compile (mpi_f08, mpi, C)"
 make -s -o mpi -o all BUILD="$build" PREFIX=/usr DESTDIR="$work/root" install-mpi >"$work/log" 2>&1 &&
     "$mpicc" -std=c17 -I"$work/root/usr/include" -o "$work/installed" regress/hosts/shared_column.c -L"$work/root/usr/lib" -lselas-mpi -Wl,-rpath,"$work/root/usr/lib" ${LDFLAGS:-} 2>>"$work/log"
@@ -47,10 +37,11 @@ saves() { # saves WHAT WORDS...: the same file by 1, 2 and 3 ranks, and after ea
 }
 saves "layers in single precision" regress/parallel/tall.nml method%precision=single
 saves "points" $points
-host "a coupled host, mpi_f08" 3 "$work/coupled_f08"
-host "a coupled host, mpi" 2 "$work/coupled_mpi"
-host "a host of the installed library" 2 "$work/installed"
-host "a host in C" 3 "$work/shared_column"
+tall=regress/parallel/tall.nml
+host "a coupled host, mpi_f08" 3 "$work/coupled_f08" $tall
+host "a coupled host, mpi" 2 "$work/coupled_mpi" $tall
+host "a host of the installed library" 2 "$work/installed" $tall
+host "a host in C" 3 "$work/shared_column" $tall
 timeout 60 $mpirun -n 3 "$work/shared_column" regress/cases/half-space-pml/deck.nml >"$work/log" 2>&1
 [ "$(grep -c '^error: 1 of the .* open it with as many' "$work/log")" = 1 ]
 verdict $? "a host with too many ranks: one line"

@@ -2,6 +2,29 @@
 # Total-Lagrangian points, particles that move.
 same "1 3 7" "points" $points
 as_planned "a rank sends the bytes a step that the plan of points tells" ranks
+
+# The plan's efficiency by Eq (R3b) of doc/developers/ranks.md, of rows of 16 points free on all sides, in two halves of equal
+# rows: neighbours within 3 spacings of own points and of those of the 3 rows besides whose gradients are made
+cat >"$work/rows.nml" <<'EOF'
+&scene dimension = 2, end_time = 1 /
+&method name = 'sph', variant = 'total-lagrangian', gradient = 'linear' /
+&material name = 'rock', density = 1, lambda = 1, mu = 1 /
+&body material = 'rock', low = 0, 0, high = 4, 10, spacing = .25 /
+&initial kind = 'gaussian', amplitude = .01, width = 1, centre = 1, 2, direction = .3, 1 /
+&receiver name = 'r', position = 2, 7 /
+EOF
+timeout 60 $mpirun -n 2 "$build/selas-mpi" check "$work/rows.nml" >"$work/plan" 2>"$work/log"
+awk 'function near(rows, i, j, a, b, sum) {
+        for (j = 0; j < rows; j++) for (i = 0; i < 16; i++) for (b = -2; b <= 2; b++) for (a = -2; a <= 2; a++)
+            sum += (a != 0 || b != 0) && i + a >= 0 && i + a < 16 && j + b >= 0 && j + b < n
+        return sum
+    }
+    /^ranks: 2, points/ { own = $NF / 16; equal = $(NF - 1) == $NF; n = 2 * own } /^neighbours a point/ { mean = $NF }
+    /^halo bytes a step/ { sent = $(5) } /^efficiency expected/ { told = $3 } END {
+        d = near(n) / (16 * n) - mean; if (!equal || d * d > .051 ^ 2) exit 1
+        e = 1.2 * near(n) / 2 / (.6 * (near(own) + near(own + 3)) + sent / 2 + 2000)
+        d = told - e; exit !(told > 0 && told < 1 && d * d < .00505 ^ 2) }' "$work/plan"
+verdict $? "the plan of points on ranks tells the efficiency of the model of cost"
 same 7 "points in many planes, central differences" $points body%high=2,1.5,24 profile%to=1,.75,24 method%gradient=central
 same 3 "scattered points" $points body%jitter=.15
 same 3 "points, a moved face and viscosity" $points method%viscosity_alpha=.5 "boundary(1)%kind=displacement" "boundary(1)%direction=.2,0,1" "boundary(1)%history=gaussian" "boundary(1)%width=.4" "boundary(1)%delay=.6" "boundary(1)%amplitude=.05"
@@ -35,4 +58,12 @@ same 3 "points about a hole in a plane" input/plate.nml body%spacing=.05 scene%e
 same 2 "points of a beam in its mode, four stages of Runge and Kutta" input/beam.nml scene%end_time=.001 stepping%scheme=rk4
 same "2 7" "particles that move" $moving
 as_planned "a rank sends the bytes a step that the plan of particles tells" ranks
+# by Eq (R9b): rates of own particles, of which the first rank sends the bytes told, other work for all
+timeout 60 $mpirun -n 2 "$build/selas-mpi" check regress/parallel/moving-particles.nml body%spacing=.05 >"$work/plan" 2>"$work/log"
+awk '/^ranks: 2, particles/ { a = $(NF - 1); b = $NF } /^neighbours of a particle/ { near = $5 } /^halo bytes a step/ { sent = $5 }
+    /^efficiency expected/ { told = $3; sub(/;/, "", $5); balance = $5 } END {
+        n = a + b; own = near * n / 2 / balance
+        e = (18 * n + 4.5 * near * n) / 2 / (18 * n + 4.5 * own + sent / a * (a > b ? a : b) / 2 + 6000)
+        d = told - e; exit !(told > 0 && told < 1 && d * d < .01 ^ 2) }' "$work/plan"
+verdict $? "the plan of particles on ranks tells the efficiency of the model of cost"
 same 3 "scattered particles that move, hourglass control, stages of Runge, Kutta and Chebyshev" $moving body%jitter=.1 method%kernel=wendland method%hourglass=.2 stepping%scheme=rkc

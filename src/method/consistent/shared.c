@@ -189,14 +189,10 @@ void shared_describe(const struct consistent *c,
     snprintf(text + used, sizeof text - (size_t)used,
              y->ranks > 1 ? ", %zu rows to a neighbour)" : " to a neighbour)", y->halo);
     tell(context, "halo bytes a step", text);
-    const struct part_outlook outlook = part_outlook(c);
-    snprintf(
-        text, sizeof text,
-        "%.2f (balance %.2f; of even ground in one pass, with %g ns a point, %g ns of the halo, %g GB/s and "
-        "%g us a message)",
-        outlook.efficiency, outlook.balance, PART_POINT * 1e9, PART_HALO_POINT * 1e9, 1e-9 / PART_BYTE,
-        PART_MESSAGE * 1e6);
-    tell(context, "efficiency expected", text);
+    const struct ranks_outlook outlook = part_outlook(c);
+    snprintf(text, sizeof text, "of even ground in one pass, with %g ns a point, %g ns of the halo",
+             PART_POINT * 1e9, PART_HALO_POINT * 1e9);
+    ranks_tell_outlook(&outlook, text, tell, context);
 }
 
 /* --- What is wrong -------------------------------------------------------------------------------------- */

@@ -11,6 +11,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Seconds that Eq (R3b) takes of a neighbour in the gradients of a point (measured). */
+#define TL_NEIGHBOUR 1.2e-9
+
 /* Marks what stands in the row of a point or site. */
 static void mark_row(const struct tl_model *tl, const struct tl_rows *rows, size_t i, bool *mark)
 {
@@ -174,6 +177,26 @@ static bool share(struct tl_model *tl, bool room, struct reach *reach)
     return room && find_halos(tl);
 }
 
+/* Together: Eq (R3b). */
+static void look_ahead(struct tl_model *tl)
+{
+    struct tl_part *part = &tl->part;
+    double own = 0, made = 0, sent = 0, messages = 0;
+    for (size_t k = 0; k < part->own.count; k++)
+        own += tl_neighbours(tl, part->own.range[k]);
+    for (size_t b = 0; b < tl->gradient_blocks.count; b++) {
+        const struct tl_block *block = &tl->gradient_blocks.block[b];
+        made += tl_neighbours(tl, (struct tl_range){block->first, (size_t)block->first + block->count});
+    }
+    for (int r = 0; r < ranks_count(part->ranks); r++) {
+        sent += (double)(part->halo[r].give.points * sizeof(double)) * tl->cloud->dimension;
+        messages += part->halo[r].give.points + part->halo[r].get.points > 0;
+    }
+    part->outlook = ranks_look_ahead(
+        part->ranks, own, TL_NEIGHBOUR / 2 * (made + own) + RANKS_BYTE * sent + RANKS_MESSAGE * messages,
+        TL_NEIGHBOUR * part->neighbours);
+}
+
 selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
 {
     const size_t n = tl->cloud->points;
@@ -187,10 +210,12 @@ selas_status tl_share_points(struct tl_model *tl, struct messages *messages)
         array_free(reach.gradient);
         array_free(reach.window);
     }
-    return ranks_agree(tl->part.ranks,
-                       room ? tl_keep_dampers(tl, messages)
-                            : fail(messages, SELAS_NO_MEMORY, "no memory for the ranks"),
-                       messages);
+    const selas_status status = ranks_agree(tl->part.ranks,
+                                            room ? tl_keep_dampers(tl, messages)
+                                                 : fail(messages, SELAS_NO_MEMORY, "no memory for the ranks"),
+                                            messages);
+    if (status == SELAS_OK && tl->part.ranks != NULL) look_ahead(tl);
+    return status;
 }
 
 void tl_part_free(struct tl_part *part)
@@ -359,4 +384,6 @@ void tl_describe_part(const struct tl_model *tl,
     snprintf(text, sizeof text, "%zu by the first rank in each operator call (%zu points of its %zu)",
              operators * sent * (size_t)tl->cloud->dimension * sizeof(double), sent, part->owned[0].points);
     tell(context, "halo bytes a step", text);
+    snprintf(text, sizeof text, "with %g ns a neighbour", TL_NEIGHBOUR * 1e9);
+    ranks_tell_outlook(&part->outlook, text, tell, context);
 }

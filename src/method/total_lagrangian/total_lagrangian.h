@@ -9,7 +9,7 @@
 #include "method/total_lagrangian/elastic_law.h"
 #include "method/total_lagrangian/sets.h"
 #include "model/model.h"
-#include "parallel/ranks.h"
+#include "parallel/few_ranks.h"
 #include "points/cloud.h"
 #include "points/neighbours.h"
 
@@ -151,6 +151,7 @@ struct tl_part {
                                   begins with the body */
     double spacing;       /* the largest one of all points, if it is not that of each; else 0 */
     double neighbours, ghosts; /* in the gradients of all points, and of all ranks, for describe() */
+    struct ranks_outlook outlook;
 };
 
 struct tl_model {

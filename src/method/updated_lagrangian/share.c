@@ -6,10 +6,14 @@
 #include "base/memory.h"
 #include "parallel/few_ranks.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /* Components of the rates that follow from sums over neighbours: acceleration, density, stress. */
 enum { SUMMED = 3 };
+/* Seconds that Eq (R9b) takes of a neighbour of an own particle, and of any particle (measured). */
+#define NEIGHBOUR 4.5e-9
+#define PARTICLE 18e-9
 
 /* Neighbours in the lists of a block. */
 static double cost(const void *context, size_t block)
@@ -61,6 +65,32 @@ static size_t particles_of(const struct updated *updated, size_t rank, size_t *f
     return end < points ? end : points;
 }
 
+/* In an evaluation by a rank with so many particles. */
+static size_t numbers_sent(const struct updated *updated, size_t particles)
+{
+    const size_t others = (size_t)ranks_count(updated->part.ranks) - 1;
+    return others * particles * (size_t)(updated->dimension + 1 + updated->stresses);
+}
+
+/* Eq (R9b). */
+static struct ranks_outlook look_ahead(const struct updated *updated)
+{
+    const size_t *start = updated->neighbours.start, ranks = (size_t)ranks_count(updated->part.ranks);
+    const double all = PARTICLE * (double)updated->cloud->points,
+                 whole = (double)start[updated->cloud->points], mean = whole / (double)ranks;
+    double most = 0, longest = 0;
+    for (size_t r = 0; r < ranks; r++) {
+        size_t from;
+        const size_t end = particles_of(updated, r, &from);
+        const double own = (double)(start[end] - start[from]),
+                     sent = (double)(sizeof(double) * numbers_sent(updated, end - from));
+        most = fmax(most, own);
+        longest = fmax(longest, all + NEIGHBOUR * own + RANKS_BYTE * sent +
+                                    RANKS_MESSAGE * (double)(SUMMED * (ranks - 1)));
+    }
+    return (struct ranks_outlook){mean / most, (all + NEIGHBOUR * whole) / (double)ranks / longest};
+}
+
 void updated_exchange(const struct updated *updated, double *dydt)
 {
     const struct updated_part *part = &updated->part;
@@ -99,9 +129,13 @@ void updated_describe_part(const struct updated *updated,
     }
     tell(context, "ranks", text);
     end = particles_of(updated, 0, &from);
-    const size_t numbers = (ranks - 1) * (end - from) * (size_t)(updated->dimension + 1 + updated->stresses);
+    const size_t numbers = numbers_sent(updated, end - from);
     snprintf(text, sizeof text,
              "%zu by the first rank in each evaluation (the rates of its particles, to all)",
              numbers * sizeof(double));
     tell(context, "halo bytes a step", text);
+    const struct ranks_outlook outlook = look_ahead(updated);
+    snprintf(text, sizeof text, "with %g ns a neighbour, %g ns a particle on all ranks", NEIGHBOUR * 1e9,
+             PARTICLE * 1e9);
+    ranks_tell_outlook(&outlook, text, tell, context);
 }

@@ -5,7 +5,7 @@
 #ifndef SELAS_METHOD_CONSISTENT_GALERKIN_PART_H
 #define SELAS_METHOD_CONSISTENT_GALERKIN_PART_H
 
-#include "parallel/ranks.h"
+#include "parallel/few_ranks.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -56,18 +56,11 @@ struct rank_part {
 /* Shares the control values of the body, after the axes are known: sets c->part and the window's sizes; ranks that are
  * too many become idle, whose status is SELAS_STOPPED. */
 selas_status part_lay(struct consistent *c, struct messages *messages);
-/* Seconds that Eq (R2b) takes of doc/developers/ranks.md: of a point (measured), of a point of the halo, of a byte and
- * of a message (assumed). */
+/* Seconds that Eq (R2b) takes of doc/developers/ranks.md: of a point (measured), of a point of the halo (assumed). */
 #define PART_POINT 16.4e-9
 #define PART_HALO_POINT 3e-9
-#define PART_BYTE 5e-10
-#define PART_MESSAGE 2e-6
-/* What the blocks let expect, of a step in one pass on even ground with the times that Eq (R2b) assumes: mean over
- * largest work, and seconds without ranks over ranks times seconds. */
-struct part_outlook {
-    double balance, efficiency;
-};
-struct part_outlook part_outlook(const struct consistent *c);
+/* Of the blocks, of a step in one pass on even ground. */
+struct ranks_outlook part_outlook(const struct consistent *c);
 void part_free(struct consistent *c);
 
 /* Does the rank have a part of the rows alone? */

@@ -295,7 +295,7 @@ static struct side side_of(const struct part_axis *along, const struct consisten
     return side;
 }
 
-struct part_outlook part_outlook(const struct consistent *c)
+struct ranks_outlook part_outlook(const struct consistent *c)
 {
     const struct part_axis *y = &c->part.along[1], *z = &c->part.along[DEPTH];
     const double x = (double)c->part.along[0].whole, beside = layers_between(c, 0, 0, c->part.along[0].whole);
@@ -313,11 +313,11 @@ struct part_outlook part_outlook(const struct consistent *c)
         most = fmax(most, work);
         longest =
             fmax(longest, PART_POINT * work + PART_HALO_POINT * (x * rows.window * planes.window - points) +
-                              PART_BYTE * sent + PART_MESSAGE * (rows.neighbours + planes.neighbours));
+                              RANKS_BYTE * sent + RANKS_MESSAGE * (rows.neighbours + planes.neighbours));
         sum += work;
     }
     const double mean = sum / (y->ranks * z->ranks);
-    return (struct part_outlook){.balance = mean / most, .efficiency = PART_POINT * mean / longest};
+    return (struct ranks_outlook){.balance = mean / most, .efficiency = PART_POINT * mean / longest};
 }
 
 void part_free(struct consistent *c)
