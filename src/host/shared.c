@@ -1,14 +1,24 @@
 /* A simulation that ranks share (doc/howto/ranks.md): what they are told, and what runs on one rank alone. */
+#include "base/crc64.h"
 #include "host/simulation.h"
-#include "parallel/ranks.h"
+#include "parallel/few_ranks.h"
 #include "scene/ground.h"
 
 #include <math.h>
+#include <string.h>
 
-void simulation_share(selas_simulation *simulation, struct ranks *ranks)
+selas_status simulation_share(selas_simulation *simulation, struct ranks *ranks, selas_status status)
 {
+    struct crc64_table table;
     simulation->ranks = ranks;
     if (simulation->scene != NULL) simulation->scene->ranks = ranks;
+    status = ranks_agree(ranks, status, &simulation->messages);
+    if (status != SELAS_OK || ranks_count(ranks) == 1) return status;
+    crc64_prepare(&table);
+    const char *text = deck_source(simulation->deck);
+    if (ranks_same(ranks, crc64_add(&table, 0, text, strlen(text)))) return SELAS_OK;
+    return fail(&simulation->messages, SELAS_BAD_DECK, "ranks have read different decks '%s'",
+                deck_source_path(simulation->deck));
 }
 
 selas_status selas_share_handle(selas_simulation *simulation, int communicator)
@@ -23,8 +33,7 @@ selas_status selas_share_handle(selas_simulation *simulation, int communicator)
     if (status != SELAS_OK) return status;
     status =
         simulation->broken == SELAS_OK && simulation->deck == NULL ? SELAS_BAD_ARGUMENT : simulation->broken;
-    simulation_share(simulation, simulation->joined);
-    status = ranks_agree(simulation->ranks, status, messages);
+    status = simulation_share(simulation, simulation->joined, status);
     simulation_failed(simulation, status);
     return status;
 }

@@ -146,8 +146,9 @@ char *simulation_checkpoint_path(selas_simulation *simulation);
 /* Saves the state there, if it is sound. */
 selas_status simulation_checkpoint(selas_simulation *simulation, enum checkpoint_keep keep);
 
-/* host/shared.c: from now on the ranks share the work of this simulation: before its model is made. */
-void simulation_share(selas_simulation *simulation, struct ranks *ranks);
+/* host/shared.c: together: from now on the ranks share the work of this simulation, before its model is made. What
+ * opening came to on all; SELAS_BAD_DECK where their decks are not the same. */
+selas_status simulation_share(selas_simulation *simulation, struct ranks *ranks, selas_status status);
 /* Together: what the model's making and all of the preparing came to, on all ranks. Values of a &model that were read
  * meanwhile are counted and let go; SELAS_FILE_ERROR where some could not be read. */
 selas_status shared_made(selas_simulation *simulation, selas_status status);

@@ -35,6 +35,14 @@ void ranks_deal(size_t places, double (*cost)(const void *context, size_t place)
     bound[ranks] = places;
 }
 
+bool ranks_same(struct ranks *ranks, uint64_t number)
+{
+    const double half[2] = {(double)(uint32_t)number, (double)(uint32_t)(number >> 32)};
+    double most[4] = {half[0], half[1], -half[0], -half[1]};
+    ranks_largest(ranks, 4, most);
+    return most[0] + most[2] == 0 && most[1] + most[3] == 0;
+}
+
 struct ranks_outlook ranks_look_ahead(struct ranks *ranks, double work, double seconds, double alone)
 {
     double most[2] = {work, seconds}, sum = work;

@@ -1,8 +1,10 @@
-/* Ranks of a method that deals out places of the body one by one. */
+/* Ranks of a method that deals out places of the body one by one; what all have the same. */
 #ifndef SELAS_PARALLEL_FEW_RANKS_H
 #define SELAS_PARALLEL_FEW_RANKS_H
 
 #include "parallel/ranks.h"
+
+#include <stdint.h>
 
 /* Together: goes on with one rank a place at most, and says so; `what` are the places ("planes over its last axis").
  * SELAS_STOPPED: this rank has nothing to do. SELAS_UNSUPPORTED: a host's communicator has more. */
@@ -12,6 +14,9 @@ selas_status ranks_at_most(struct ranks *ranks, size_t places, const char *what,
  * bound[r] .. bound[r + 1] - 1. There are at least as many places as ranks. */
 void ranks_deal(size_t places, double (*cost)(const void *context, size_t place), const void *context,
                 size_t ranks, size_t *bound);
+
+/* Together: is the number the same on all? */
+bool ranks_same(struct ranks *ranks, uint64_t number);
 
 /* Seconds of a byte and of a message that the models of cost assume (doc/developers/ranks.md). */
 #define RANKS_BYTE 5e-10

@@ -290,8 +290,7 @@ int main(int count, char **words)
         ranks_abort(ranks, EXIT_RUN_FAILED);
         status = SELAS_NO_MEMORY;
     } else {
-        status = ranks_agree(ranks, status, &simulation->messages);
-        simulation_share(simulation, ranks);
+        status = simulation_share(simulation, ranks, status);
     }
     if (status == SELAS_OK) status = look_for_results(simulation, arguments.strict);
     if (status == SELAS_OK && arguments.strict) status = be_strict(simulation);

@@ -37,7 +37,8 @@ struct run_figures {
 /* Prepares probes, buffers and the folder's name; writes nothing yet. */
 selas_status recorder_create(const struct scene *scene, struct model *model, const struct stepper *stepper,
                              struct recorder **recorder, struct messages *messages);
-/* Remembers the files that the deck names, for checkpoints and results: soon after they were read. */
+/* Together: remembers the files that the deck names, for checkpoints and results: soon after they were read.
+ * SELAS_FILE_ERROR where they are not the same on all ranks. */
 selas_status recorder_keep_files(struct recorder *recorder, struct messages *messages);
 /* Together, on ranks: the memory of the largest rank, for the plan. */
 void recorder_weigh(struct recorder *recorder);

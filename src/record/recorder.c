@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/safe_file.h"
-#include "parallel/ranks.h"
+#include "parallel/few_ranks.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -43,8 +43,11 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
 
 selas_status recorder_keep_files(struct recorder *recorder, struct messages *messages)
 {
-    if (kept_files_checksum(recorder->scene, &recorder->files)) return SELAS_OK;
-    return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the deck's files");
+    const bool good = kept_files_checksum(recorder->scene, &recorder->files);
+    const bool same = ranks_same(recorder->scene->ranks, recorder->files);
+    if (!good) return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the deck's files");
+    if (same) return SELAS_OK;
+    return fail(messages, SELAS_FILE_ERROR, "ranks have read different files that the deck names");
 }
 
 static selas_status claim_folder(const struct recorder *recorder, struct messages *messages)

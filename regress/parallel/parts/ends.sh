@@ -81,6 +81,17 @@ told() { # told STATUS COUNT PATTERN WHAT: it ended so, with as many errors, the
 }
 apart "cd elsewhere"
 told 1 1 "into the folder 'out': No such file" "a folder that one rank has not: one line"
+others() { # others PATTERN WHAT: the last of 3 ranks has another file
+    (cd "$work/apart" && timeout 60 $mpirun -n 3 sh "$work/last" "cd elsewhere" "$program" -q tall.nml output%directory="$work/apart/out") >"$work/log" 2>&1
+    [ $? = "$3" ] && [ "$(grep -c 'error: ' "$work/log")" = 1 ] && grep -q "^error: $1" "$work/log"
+    verdict $? "$2: one line" || sed 's/^/#   /' "$work/log" | head -8
+}
+cp regress/parallel/tall.nml "$work/apart"
+sed 's/spacing = 0.25/spacing = 0.2/' regress/parallel/tall.nml >"$work/apart/elsewhere/tall.nml"
+others "ranks have read different decks 'tall.nml'" "a rank with another deck" 2
+sed "s/history = 'gaussian', width = 0.4, delay = 1.6/history = 'table', file = 'pulse.txt'/" regress/parallel/tall.nml | tee "$work/apart/elsewhere/tall.nml" >"$work/apart/tall.nml"
+printf '0 0\n1 1\n2 0\n' | tee "$work/apart/pulse.txt" | sed 's/2/3/' >"$work/apart/elsewhere/pulse.txt"
+others "ranks have read different files" "a rank with another table of a load" 1
 apart "ulimit -f 30000" output%checkpoint_every=8 body%high=8,8,60 scene%end_time=.5
 told 0 1 "the checkpoint .*: File too large" "a disk that is full for a checkpoint of one rank: one line, the run ends well"
 [ -e "$work/apart/out/run.h5" ]
