@@ -3,8 +3,9 @@
 #include "selas.h"
 
 #include "advice/advice.h"
+#include "base/crc64.h"
 #include "host/simulation.h"
-#include "parallel/ranks.h"
+#include "parallel/few_ranks.h"
 #include "program/commands.h"
 #include "program/run.h"
 #include "program/signals.h"
@@ -254,10 +255,26 @@ static void command_first(int count, char **words)
     words[1] = command;
 }
 
+/* Together. */
+static bool same_words(int count, char **words, struct ranks *ranks)
+{
+    struct crc64_table table;
+    uint64_t sum = 0;
+    crc64_prepare(&table);
+    for (int i = 1; i < count; i++)
+        sum = crc64_add(&table, sum, words[i], strlen(words[i]) + 1);
+    return ranks_same(ranks, sum);
+}
+
 int main(int count, char **words)
 {
     command_first(count, words);
     struct ranks *ranks = ranks_begin();
+    if (!same_words(count, words, ranks)) {
+        if (ranks_first(ranks)) fprintf(stderr, "selas-mpi: ranks were given different commands\n");
+        ranks_end(&ranks);
+        return EXIT_BAD_INPUT;
+    }
     const bool diff = count > 1 && strcmp(words[1], "diff") == 0;
     if (diff || (count > 1 && strcmp(words[1], "words") == 0)) {
         const int ended = !ranks_first(ranks) ? EXIT_DONE

@@ -89,6 +89,13 @@ others() { # others PATTERN WHAT: the last of 3 ranks has another file
 cp regress/parallel/tall.nml "$work/apart"
 sed 's/spacing = 0.25/spacing = 0.2/' regress/parallel/tall.nml >"$work/apart/elsewhere/tall.nml"
 others "ranks have read different decks 'tall.nml'" "a rank with another deck" 2
+differ() { # differ WORDS...: those of the third rank
+    timeout 60 $mpirun -n 2 "$build/selas-mpi" -q regress/parallel/tall.nml : -n 1 "$build/selas-mpi" "$@" >"$work/log" 2>&1
+    [ $? = 2 ] && [ "$(grep -c '^selas-mpi: ranks were given different commands' "$work/log")" = 1 ] && ! grep -q 'error: ' "$work/log"
+    verdict $? "a rank with another command, $*: one line"
+}
+differ -q regress/parallel/tall.nml body%spacing=.2
+differ words scene
 sed "s/history = 'gaussian', width = 0.4, delay = 1.6/history = 'table', file = 'pulse.txt'/" regress/parallel/tall.nml | tee "$work/apart/elsewhere/tall.nml" >"$work/apart/tall.nml"
 printf '0 0\n1 1\n2 0\n' | tee "$work/apart/pulse.txt" | sed 's/2/3/' >"$work/apart/elsewhere/pulse.txt"
 others "ranks have read different files" "a rank with another table of a load" 1
