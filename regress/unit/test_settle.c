@@ -284,9 +284,9 @@ static void test_strains_beside_interfaces(void **state)
 }
 
 /* Of the strains of a snapshot within 3 spacings of the interface, off the faces: the same. */
-static double worst_of_snapshot(int dimension, double dip, bool graded)
+static double worst_of_snapshot(const char *rock, int dimension, double dip, bool graded)
 {
-    struct from_deck deck = scene_of(dimension, dip, .013, .9, graded, true);
+    struct from_deck deck = scene_on(rock, dimension, dip, .013, .9, graded, true);
     struct messages messages = {0};
     struct model *model = NULL;
     assert_int_equal(model_create(deck.scene, &model, &messages), SELAS_OK);
@@ -323,13 +323,17 @@ static void test_strains_of_snapshots(void **state)
     (void)state;
     static const double dip[] = {0, 5, 20, 40}; /* .63 to .83 without (G34) */
     for (size_t i = 0; i < sizeof dip / sizeof *dip; i++) {
-        const double most = worst_of_snapshot(2, dip[i], false);
+        const double most = worst_of_snapshot(stiffer, 2, dip[i], false);
         if (most > (dip[i] == 0 ? .01 : .07)) fail_msg("dip %g: %g", dip[i], most);
     }
-    assert_true(worst_of_snapshot(2, 0, true) < .01);
-    assert_true(worst_of_snapshot(2, 20, true) < .07);
-    assert_true(worst_of_snapshot(3, 0, false) < .01);
-    assert_true(worst_of_snapshot(3, 20, false) < .07);
+    assert_true(worst_of_snapshot(stiffer, 2, 0, true) < .01);
+    assert_true(worst_of_snapshot(stiffer, 2, 20, true) < .07);
+    assert_true(worst_of_snapshot(stiffer, 3, 0, false) < .01);
+    assert_true(worst_of_snapshot(stiffer, 3, 20, false) < .07);
+    assert_true(worst_of_snapshot(wet, 2, 0, false) < .01); /* .10, .36 without (G35a) */
+    assert_true(worst_of_snapshot(wet, 2, 40, false) < .08);
+    assert_true(worst_of_snapshot(wet, 2, 20, true) < .07);
+    assert_true(worst_of_snapshot(wet, 3, 20, false) < .07);
 }
 
 int main(void)

@@ -13,15 +13,18 @@
 static const char aslant[] =
     "&scene dimension = %d, end_time = 4 /\n"
     "&material name = 'soil', density = .9, p_speed = 2, s_speed = 1 /\n"
-    "&material name = 'rock', density = 1.3, p_speed = 4, s_speed = 2 /\n"
+    "&material name = 'rock', %s /\n"
     "&body low = %s, high = %s, spacing = .1%s /\n"
     "&method operator = 'general' /\n"
     "&layer material = 'soil', top = 0 /\n"
     "&layer material = 'rock', top = 1, dip = %g, strike = -90 /\n"
     "&load kind = %s, centre = %s, amplitude = 1, history = 'gaussian', width = .4, delay = 2 /\n";
 
-static inline struct from_deck scene_of(int dimension, double dip, double x, double z, bool graded,
-                                        bool force)
+static const char stiffer[] = "density = 1.3, p_speed = 4, s_speed = 2",
+                  wet[] = "density = .9, p_speed = 3, s_speed = 1"; /* the soil's shear modulus */
+
+static inline struct from_deck scene_on(const char *rock, int dimension, double dip, double x, double z,
+                                        bool graded, bool force)
 {
     static const char *const load[2][2] = {{"'moment-tensor', moment = 1, .3, 0, -.6, 0, 0",
                                             "'moment-tensor', moment = 1, -.5, .3, .7, .4, -.6"},
@@ -29,10 +32,16 @@ static inline struct from_deck scene_of(int dimension, double dip, double x, dou
                                             "'body-force', shape = 'point', direction = .6, 0, .8"}};
     char text[2000], place[100];
     snprintf(place, sizeof place, dimension == 2 ? "%g, %g" : "%g, .02, %g", x, z);
-    snprintf(text, sizeof text, aslant, dimension, dimension == 2 ? "-1.2, 0" : "-1, -1, 0",
+    snprintf(text, sizeof text, aslant, dimension, rock, dimension == 2 ? "-1.2, 0" : "-1, -1, 0",
              dimension == 2 ? (graded ? "1.2, 4" : "1.2, 2") : "1, 1, 2", graded ? ", grading = 2" : "", dip,
              load[force][dimension - 2], place);
     return right_scene(text);
+}
+
+static inline struct from_deck scene_of(int dimension, double dip, double x, double z, bool graded,
+                                        bool force)
+{
+    return scene_on(stiffer, dimension, dip, x, z, graded, force);
 }
 
 enum { FIELDS = 3 };

@@ -10,9 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Means over the points about a knot, by slot; the squares of what their waves' stiffness has of directions. */
+/* Means over the points about a knot, by slot; the squares of what their waves' stiffness has of directions, and of its
+ * mean. */
 struct pull {
-    double weight, stress[3][3], slope[3][3], turn[3][3];
+    double weight, stress[3][3], slope[3][3], turn[3][3], stiff;
 };
 
 /* Points of a family about a knot: from .. end - 1 along each slot, each with the share of the hat. */
@@ -34,17 +35,36 @@ static struct about about_knot(const struct consistent *c, const struct family *
     return about;
 }
 
-static bool turned_about(const struct consistent *c, const size_t knot[3])
+/* lambda over mu of a point, trace for trace. */
+static double ratio_at(const struct family *family, const size_t at[3])
 {
+    double C[STRESSES][STRESSES] = {{0}}, spread = 0, all = 0;
+    general_add_stiffness(family, at, 1, C);
+    for (int p = 0; p < 3; p++) {
+        spread += C[p][0] + C[p][1] + C[p][2];
+        all += C[p][p] + 2 * C[p + 3][p + 3];
+    }
+    return (4 * spread - 2 * all) / (3 * all - spread); /* 9 lambda + 6 mu, 3 lambda + 12 mu */
+}
+
+/* Is the rock about a knot not even? */
+static bool varies_about(const struct consistent *c, const size_t knot[3])
+{
+    static const double slight = 1e-3;
+    double least = INFINITY, most = -INFINITY;
     for (int f = 0; f < 3; f++) {
         const struct family *family = &c->general->family[f];
         const struct about about = about_knot(c, family, knot);
         for (size_t k = about.from[2]; k < about.end[2]; k++)
             for (size_t j = about.from[1]; j < about.end[1]; j++)
-                for (size_t i = about.from[0]; i < about.end[0]; i++)
-                    if (general_is_turned(family, (size_t[3]){i, j, k})) return true;
+                for (size_t i = about.from[0]; i < about.end[0]; i++) {
+                    const size_t at[3] = {i, j, k};
+                    if (general_is_turned(family, at)) return true;
+                    least = fmin(least, ratio_at(family, at));
+                    most = fmax(most, ratio_at(family, at));
+                }
     }
-    return false;
+    return most - least > slight * (1 + fabs(least));
 }
 
 /* Slopes of u at a point, [component][slot], along the axes. */
@@ -79,7 +99,7 @@ static void slopes_at(const struct consistent *c, const struct family *family, c
 }
 
 /* (G35) */
-static void add_turn(double C[STRESSES][STRESSES], double turn[3][3])
+static void add_turn(double C[STRESSES][STRESSES], double turn[3][3], double *stiff)
 {
     const double s[3] = {C[0][0] + C[5][5] + C[4][4], C[1][1] + C[5][5] + C[3][3],
                          C[2][2] + C[4][4] + C[3][3]};
@@ -88,6 +108,7 @@ static void add_turn(double C[STRESSES][STRESSES], double turn[3][3])
     const double d[3][3] = {{s[0] - mean, xy, zx}, {xy, s[1] - mean, yz}, {zx, yz, s[2] - mean}};
     for (int n = 0; n < 27; n++)
         turn[n / 9][n / 3 % 3] += d[n / 9][n % 3] * d[n % 3][n / 3 % 3];
+    *stiff += mean * mean;
 }
 
 static void add_point(const struct consistent *c, const struct family *family, const size_t at[3],
@@ -98,7 +119,7 @@ static void add_point(const struct consistent *c, const struct family *family, c
     double slope[3][3], stiffness[STRESSES][STRESSES] = {{0}};
     slopes_at(c, family, at, u, slope);
     general_add_stiffness(family, at, share, stiffness);
-    add_turn(stiffness, pull->turn);
+    add_turn(stiffness, pull->turn, &pull->stiff);
     pull->weight += weight;
     for (int n = 0; n < 9; n++)
         pull->slope[n / 3][n % 3] += weight * slope[n / 3][n % 3];
@@ -193,17 +214,75 @@ bool general_steepest(double turn[3][3], double normal[3])
     return true;
 }
 
+/* Sums over points about a knot, x by slot in cells from it, m lambda over mu. */
+struct sums {
+    double weight, m, x[3], square[3], mx[3];
+};
+
+static void add_ratio(const struct consistent *c, const struct family *family, const size_t knot[3],
+                      const size_t at[3], double share, struct sums *sums)
+{
+    const double weight = share * general_weight(c, family, at), m = ratio_at(family, at);
+    sums->weight += weight;
+    sums->m += weight * m;
+    for (int slot = 0; slot < 3; slot++) {
+        const double first = (double)(knot[slot] - (slot == DEPTH ? c->general->first : 0));
+        const double x = (double)at[slot] + (family->at[slot] == AT_MIDDLES ? .5 : 0) - first;
+        sums->x[slot] += weight * x;
+        sums->square[slot] += weight * x * x;
+        sums->mx[slot] += weight * m * x;
+    }
+}
+
+/* (G35a): where points are isotropic all about a knot, along the slope of lambda over mu. False: there is none. */
+static bool find_rise(const struct consistent *c, const size_t knot[3], const double place[3],
+                      double normal[3])
+{
+    const struct metric metric = consistent_metric(c, place);
+    struct sums sums = {0};
+    for (int f = 0; f < 3; f++) {
+        const struct family *family = &c->general->family[f];
+        const struct about about = about_knot(c, family, knot);
+        for (size_t k = about.from[2]; k < about.end[2]; k++)
+            for (size_t j = about.from[1]; j < about.end[1]; j++)
+                for (size_t i = about.from[0]; i < about.end[0]; i++)
+                    add_ratio(c, family, knot, (size_t[3]){i, j, k}, about.share, &sums);
+    }
+    for (int slot = 0; slot < 3; slot++) {
+        const struct spline *spline = c->layout[slot];
+        if (spline == NULL || mirrors(c, knot, slot)) continue;
+        const double middle = sums.x[slot] / sums.weight;
+        normal[slot] = (sums.mx[slot] - sums.m * middle) / (sums.square[slot] - sums.x[slot] * middle) /
+                       glut_spacing(spline);
+    }
+    metric_tilt(&metric, normal);
+    const double length = hypot(hypot(normal[0], normal[1]), normal[2]);
+    for (int slot = 0; slot < 3 && length > 0; slot++)
+        normal[slot] /= length;
+    return length > 0;
+}
+
+/* (G35): false: the rock about the knot has no direction. */
+static bool find_normal(const struct consistent *c, const size_t knot[3], const double place[3],
+                        struct pull *pull, double normal[3])
+{
+    static const double rounding = 1e-9;
+    const double turn = pull->turn[0][0] + pull->turn[1][1] + pull->turn[2][2];
+    return turn > rounding * rounding * pull->stiff ? general_steepest(pull->turn, normal)
+                                                    : find_rise(c, knot, place, normal);
+}
+
 void general_mend(const struct consistent *c, const size_t point[3], const double place[3], const double *u,
                   double gradient[9])
 {
     size_t knot[3] = {0};
     struct pull pull;
-    double n[3], lack[3] = {0}, across = 0, spread = 0;
+    double n[3] = {0}, lack[3] = {0}, across = 0, spread = 0;
     for (int axis = 0; axis < c->dimension; axis++)
         knot[c->slot[axis]] = point[axis] + c->layer[2 * axis];
-    if (!turned_about(c, knot)) return;
+    if (!varies_about(c, knot)) return;
     find_pull(c, knot, u, &pull);
-    if (!general_steepest(pull.turn, n)) return;
+    if (!find_normal(c, knot, place, &pull, n)) return;
     const struct rock rock = consistent_rock_at(c, place); /* (G34) */
     double(*slope)[3] = pull.slope;
     for (int s = 0; s < 3; s++)
