@@ -1111,6 +1111,12 @@ untold "stress two spacings above" check jump.nml profile%to=0,0.8
 untold "stress beside a level interface" check jump.nml 'layer(2)%dip='
 untold "the same by the general operator" check jump.nml 'layer(2)%dip=' method%operator=general
 told "and by particles" "$smooth.*two spacings off would do" check jump.nml 'layer(2)%dip=' method%name=sph
+told "stress in rock that is nearly incompressible" "'p' has stress or pressure in rock of nu = 0.49.*up to about 0.27" check jump.nml \
+    'layer(2)%dip=' 'layer(2)%top=2' 'material(2)%p_speed=4.285'
+told "pressure all over it" "&snapshot 1 has stress or pressure in rock of nu = 0.49.*up to about 0.27" check jump.nml \
+    'layer(2)%dip=' 'material(2)%p_speed=4.285' profile%fields=velocity snapshot%times=1 snapshot%fields=pressure
+untold "stress and pressure in rock of nu = .42" check jump.nml 'layer(2)%dip=' 'material(2)%p_speed=1.616' \
+    snapshot%times=1 snapshot%fields=pressure
 sed "s/^&profile.*/\&snapshot times = 1, fields = 'energy' \//" jump.nml >energy.nml
 rocks="across rocks of [.0-9]* times"
 untold "energy all over the body" check energy.nml

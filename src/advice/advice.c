@@ -226,6 +226,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_nearness(&adviser);
     look_at_interfaces(&adviser);
     look_at_fields(&adviser);
+    look_at_pressures(&adviser);
     look_at_crossed_rock(&adviser);
     look_at_ringing_body(&adviser);
     look_at_cut_moment(&adviser);

@@ -139,22 +139,28 @@ static bool part_sees(const struct scene *scene, const void *of, const double pl
     return false;
 }
 
+/* What a snapshot shows and a spacing about it, on the lattice. */
+static void box_of(const struct scene *scene, const struct snapshot *snapshot, double low[3], double high[3])
+{
+    double one[3], other[3];
+    ground_from_deck(&scene->body, snapshot->region_low, one);
+    ground_from_deck(&scene->body, snapshot->region_high, other);
+    for (int axis = 0; axis < scene->dimension; axis++) {
+        const double least = fmin(one[axis], other[axis]) - scene->body.spacing,
+                     most = fmax(one[axis], other[axis]) + scene->body.spacing;
+        low[axis] = snapshot->whole ? scene->body.low[axis] : fmax(least, scene->body.low[axis]);
+        high[axis] = snapshot->whole ? scene->body.high[axis] : fmin(most, scene->body.high[axis]);
+    }
+}
+
 /* How many times the shear modulus differs where the rock jumps within a spacing of its places, at most; 0: it does
  * not. */
 static double jump_in(const struct scene *scene, const struct snapshot *snapshot)
 {
     double most = 0;
     struct part part = {.most = &most};
-    double one[3], other[3];
-    ground_from_deck(&scene->body, snapshot->region_low, one);
-    ground_from_deck(&scene->body, snapshot->region_high, other);
-    for (int axis = 0; axis < scene->dimension; axis++) {
-        const double low = fmin(one[axis], other[axis]) - scene->body.spacing,
-                     high = fmax(one[axis], other[axis]) + scene->body.spacing;
-        part.low[axis] = snapshot->whole ? scene->body.low[axis] : fmax(low, scene->body.low[axis]);
-        part.high[axis] = snapshot->whole ? scene->body.high[axis] : fmin(high, scene->body.high[axis]);
-    }
-    if (by_law(snapshot->fields)) jumps_in(scene, part.low, part.high, part_sees, &part);
+    box_of(scene, snapshot, part.low, part.high);
+    jumps_in(scene, part.low, part.high, part_sees, &part);
     return most;
 }
 
@@ -183,6 +189,89 @@ static double law_of_profile(double times)
 static double law_of_snapshot(const struct scene *scene, double times)
 {
     return (scene->body.blocks > 0 || scene->body.model != NULL ? 11 : 6.2) * log(fmax(times, 1));
+}
+
+/* A place's rock, where pressures err more than elsewhere: by M / mu over the square of its points a wavelength. */
+static void look_there(const struct scene *scene, const double place[3], struct rock *worst)
+{
+    const struct rock rock = ground_at(scene, place);
+    const double here = (rock.lambda + 2 * rock.mu) / (rock.mu * rock.mu) * rock.density,
+                 there = (worst->lambda + 2 * worst->mu) / (worst->mu * worst->mu) * worst->density;
+    if (worst->mu == 0 || here > there) *worst = rock;
+}
+
+static struct rock worst_on(const struct scene *scene, const struct profile *profile)
+{
+    struct rock worst = {0};
+    for (size_t i = 0; i < profile->points; i++) {
+        double position[3], place[3] = {0, 0, 0};
+        profile_position(profile, i, position);
+        ground_from_deck(&scene->body, position, place);
+        look_there(scene, place, &worst);
+    }
+    return worst;
+}
+
+static struct rock worst_in(const struct scene *scene, const struct snapshot *snapshot)
+{
+    enum { LOOKS = 33, BESIDE = 9 };
+    const struct topography *topography = scene->body.topography;
+    const int down = scene->dimension - 1;
+    struct rock worst = {0};
+    double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    box_of(scene, snapshot, low, high);
+    for (int n = 0; n < LOOKS * BESIDE * BESIDE; n++) {
+        const int step[2] = {n / LOOKS % BESIDE, n / LOOKS / BESIDE};
+        double place[3] = {0, 0, 0};
+        for (int axis = 0; axis < 2 && axis < down; axis++)
+            place[axis] = low[axis] + step[axis] * (high[axis] - low[axis]) / (BESIDE - 1);
+        place[down] = low[down] + n % LOOKS * (high[down] - low[down]) / (LOOKS - 1);
+        if (topography != NULL)
+            place[down] = topography_real(topography, topography_drop(topography, place), place[down]);
+        look_there(scene, place, &worst);
+    }
+    return worst;
+}
+
+/* A pressure is M tr(strain): errors of the strain stand in it times M / mu. Measured in the plane, in even ground
+ * (regress/studies/blocks BUILD pressures). */
+static bool told_of_pressure(struct adviser *adviser, const char *what, const struct rock rock)
+{
+    static const double seen = .1, law = .45;
+    const struct scene *scene = adviser->scene;
+    const double lambda = rock.lambda, mu = rock.mu;
+    const double points = points_per_wavelength(scene) * sqrt(mu / rock.density) / slowest_speed(scene),
+                 error = law * (lambda + 2 * mu) / mu / (points * points);
+    if (!(lambda > 2 * mu) || !(points > 0) || !(error > seen)) return false;
+    advise(adviser,
+           "%s has stress or pressure in rock of nu = %.3g, which resists changes of volume so much that "
+           "what strains "
+           "err by, %.3g points a wavelength, makes stresses err by up to about %.2g; body%%spacing = %.3g "
+           "would be "
+           "right",
+           what, lambda / (2 * (lambda + mu)), points, fmin(1, error),
+           scene->body.spacing * sqrt(seen / 2 / error));
+    return true;
+}
+
+/* Stresses of the splines in rock that is nearly incompressible. */
+void look_at_pressures(struct adviser *adviser)
+{
+    static const unsigned asked = 1U << SELAS_STRESS | 1U << SELAS_PRESSURE;
+    const struct scene *scene = adviser->scene;
+    bool told = strcmp(scene->method.variant, "consistent") != 0 || scene->dimension == 1 ||
+                (scene->dimension == 2 && scene->plane == PLANE_STRESS);
+    char what[NAME_SIZE + 16];
+    for (size_t i = 0; i < scene->profiles && !told; i++) {
+        snprintf(what, sizeof what, "profile '%s'", scene->profile[i].name);
+        told = (scene->profile[i].fields & asked) != 0 &&
+               told_of_pressure(adviser, what, worst_on(scene, &scene->profile[i]));
+    }
+    for (size_t i = 0; i < scene->snapshots && !told; i++) {
+        snprintf(what, sizeof what, "&snapshot %zu", i + 1);
+        told = (scene->snapshot[i].fields & asked) != 0 &&
+               told_of_pressure(adviser, what, worst_in(scene, &scene->snapshot[i]));
+    }
 }
 
 /* Strains of particles, and of profiles in the general operator's ground but across one surface, are smooth where the

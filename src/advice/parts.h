@@ -117,8 +117,10 @@ void look_at_nearness(struct adviser *adviser);
 void look_at_passed(struct adviser *adviser, size_t load);
 /* Moment tensors beside interfaces of general ground. */
 void look_at_interfaces(struct adviser *adviser);
-/* Stresses that are asked for where the rock jumps (jumps.c). */
+/* Stresses that are asked for where the rock jumps (fields.c). */
 void look_at_fields(struct adviser *adviser);
+/* Stresses in rock that is nearly incompressible (fields.c). */
+void look_at_pressures(struct adviser *adviser);
 /* Rock that jumps in general ground (jumps.c, stacks.c, soft.c). */
 void look_at_weights(struct adviser *adviser);
 void look_at_walls(struct adviser *adviser);
