@@ -1117,6 +1117,12 @@ told "pressure all over it" "&snapshot 1 has stress or pressure in rock of nu = 
     'layer(2)%dip=' 'material(2)%p_speed=4.285' profile%fields=velocity snapshot%times=1 snapshot%fields=pressure
 untold "stress and pressure in rock of nu = .42" check jump.nml 'layer(2)%dip=' 'material(2)%p_speed=1.616' \
     snapshot%times=1 snapshot%fields=pressure
+short="load%width=.33 load%delay=1.9 profile%fields=velocity"
+# shellcheck disable=SC2086 # words
+told "a patch on rock that is nearly incompressible" "load 1 acts in rock of nu = 0.49.*up to about 0.13" check jump.nml 'layer(2)%dip=' \
+    'material(2)%p_speed=4.285' $short
+# shellcheck disable=SC2086
+untold "one on rock of nu = .42" check jump.nml 'layer(2)%dip=' 'material(2)%p_speed=1.616' $short
 sed "s/^&profile.*/\&snapshot times = 1, fields = 'energy' \//" jump.nml >energy.nml
 rocks="across rocks of [.0-9]* times"
 untold "energy all over the body" check energy.nml

@@ -63,7 +63,7 @@ static void look_at_resolution(struct adviser *adviser)
 
 /* Nearly incompressible bodies of few points across are too stiff in bending and shear. Measured: frequency
  * of a beam in plane strain, L = 5 W, 5 and 10 points across, against degree 4 (doc/howto/troubleshooting.md). */
-static void look_at_incompressible(struct adviser *adviser)
+static void look_at_stiff_bodies(struct adviser *adviser)
 {
     static const double nearly = 0.45;
     const struct scene *scene = adviser->scene;
@@ -81,6 +81,47 @@ static void look_at_incompressible(struct adviser *adviser)
            "or finer points, would be "
            "right",
            stiff->name, stiff->poisson);
+}
+
+/* What a load sends in rock that is nearly incompressible: the splines' strains of S waves change its volume a little,
+ * which M / mu makes much of. Measured in the plane, in even ground (regress/studies/blocks BUILD incompressible). */
+static void look_at_volumes(struct adviser *adviser)
+{
+    static const double seen = .05, of_moments = 3, of_forces = 1.7;
+    const struct scene *scene = adviser->scene;
+    const double points = points_per_wavelength(scene);
+    double worst = 0, nu = 0;
+    size_t which = 0;
+    if (strcmp(scene->method.variant, "consistent") != 0 || scene->dimension == 1 || !(points > 0) ||
+        (scene->dimension == 2 && scene->plane == PLANE_STRESS) || scene_has_exact(scene))
+        return;
+    for (size_t k = 0; k < scene->loads; k++) {
+        const struct load *load = &scene->load[k];
+        double place[3] = {0, 0, 0};
+        if (load->shape == LOAD_FACE || load->amplitude == 0) continue;
+        ground_from_deck(&scene->body, load->centre, place);
+        const struct rock rock = ground_at(scene, place);
+        const double here = points * sqrt(rock.mu / rock.density) / slowest_speed(scene);
+        const double law = load->kind == LOAD_MOMENT_TENSOR ? of_moments : of_forces,
+                     error = law * (rock.lambda + 2 * rock.mu) / rock.mu / pow(here, 4);
+        if (!(rock.lambda > 2 * rock.mu) || error <= worst) continue;
+        worst = error;
+        nu = rock.lambda / (2 * (rock.lambda + rock.mu));
+        which = load->group + 1;
+    }
+    if (worst > seen)
+        advise(adviser,
+               "load %zu acts in rock of nu = %.3g, where volumes that the splines change a little let "
+               "velocities err "
+               "by up to about %.2g; body%%spacing = %.3g would be right",
+               which, nu, fmin(1, worst), scene->body.spacing * pow(seen / 2 / worst, .25));
+}
+
+static void look_at_incompressible(struct adviser *adviser)
+{
+    look_at_stiff_bodies(adviser);
+    look_at_volumes(adviser);
+    look_at_pressures(adviser);
 }
 
 /* A moment tensor pulls at one point's neighbours: by gradients of total-Lagrangian points it is coarse
@@ -226,7 +267,6 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_nearness(&adviser);
     look_at_interfaces(&adviser);
     look_at_fields(&adviser);
-    look_at_pressures(&adviser);
     look_at_crossed_rock(&adviser);
     look_at_ringing_body(&adviser);
     look_at_cut_moment(&adviser);
