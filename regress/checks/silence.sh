@@ -1124,6 +1124,22 @@ told "a patch on rock that is nearly incompressible" "load 1 acts in rock of nu 
 # shellcheck disable=SC2086
 untold "one on rock of nu = .42" check jump.nml 'layer(2)%dip=' 'material(2)%p_speed=1.616' $short
 sed "s/^&profile.*/\&snapshot times = 1, fields = 'energy' \//" jump.nml >energy.nml
+cat >rough.nml <<'END'
+&scene dimension = 2, end_time = 4 /
+&material name = 'rock', density = 1.0, p_speed = 1.8, s_speed = 1.0 /
+&body material = 'rock', low = -3, 0, high = 3, 2, spacing = 0.1 /
+&topography file = 'rough.txt' /
+&boundary face = 'x-', 'x+', 'y+', kind = 'transmitting', layer = 'lysmer' /
+&load face = 'y-', shape = 'square', centre = -1, depth = 0, size = 0.5, direction = 0, 1, history = 'gaussian', width = 0.25, delay = 1.3 /
+&receiver name = 'r', position = 1, depth = 0 /
+END
+rough() { # rough HEIGHT: of every other place, .05 apart
+    awk -v height="$1" 'BEGIN { for (i = -70; i <= 70; i++) print i / 20, height * (i % 2) * (i > 0 ? 1 : -1) }' >rough.txt
+}
+rough .05
+told "stones on the ground that the splines leave out" "leave out up to 0.0[0-9]* of the heights, 0.0[0-9]* of.*up to about 0.[0-9]*; a finer" check rough.nml
+rough .01
+untold "small ones" check rough.nml
 rocks="across rocks of [.0-9]* times"
 untold "energy all over the body" check energy.nml
 told "that of a softer soil" "&snapshot 1 has stress.*$rocks.*err by up to about 0.23 within" check energy.nml 'material(2)%s_speed=.45'

@@ -286,6 +286,7 @@ size_t advice_tell(const struct scene *whole, const struct stepper *stepper,
     look_at_columns(&adviser);
     look_at_fallen_layers(&adviser);
     look_at_levelled(&adviser);
+    look_at_smoothed(&adviser);
     look_at_tilted(&adviser);
     look_at_grading(&adviser);
     for (size_t k = 0; k < scene->loads; k++)

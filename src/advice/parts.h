@@ -137,6 +137,7 @@ void look_at_tilted(struct adviser *adviser);
 void look_at_grading(struct adviser *adviser);
 /* A surface that absorbing layers change. */
 void look_at_levelled(struct adviser *adviser);
+void look_at_smoothed(struct adviser *adviser);
 /* Edges in which faces prescribe different motions. */
 void look_at_meetings(struct adviser *adviser);
 /* Scenes that their own mirror images do not continue. */

@@ -208,6 +208,19 @@ double height_map_smoothed(const struct height_map *map)
     return map->smoothed;
 }
 
+double height_map_smoothed_in(const struct height_map *map, const double low[2], const double high[2])
+{
+    const struct axis_map *x = &map->along[0], *y = &map->along[1];
+    double most = 0;
+    for (size_t i = 0; i < x->values * y->values; i++) {
+        const double place[2] = {x->place[i / y->values], y->place[i % y->values]};
+        if (place[0] < low[0] || place[0] > high[0]) continue;
+        if (map->axes > 1 && (place[1] < low[1] || place[1] > high[1])) continue;
+        most = fmax(most, fabs(height_map_at(map, place) - map->height[i]));
+    }
+    return most;
+}
+
 double height_map_centre(struct height_map *map)
 {
     const size_t values = map->along[0].values * map->along[1].values;

@@ -25,6 +25,8 @@ double height_map_at(const struct height_map *map,
 void height_map_extent(const struct height_map *map, int axis, double *low, double *high);
 double height_map_most(const struct height_map *map);
 double height_map_smoothed(const struct height_map *map);
+/* The same of values between low and high. */
+double height_map_smoothed_in(const struct height_map *map, const double low[2], const double high[2]);
 /* Takes their mean from the heights and gives it. */
 double height_map_centre(struct height_map *map);
 /* Complains of a word as the messages of reading say. */
