@@ -193,14 +193,9 @@ static void mean_moduli(const struct consistent *c, const enum at at[3], const s
 static bool make_room(struct edges *edges)
 {
     if (edges->used + MOST <= edges->room) return true;
-    const size_t room = 2 * edges->room + MOST;
-    double *slope = array_new(room, sizeof *slope);
-    if (slope == NULL) return false;
-    if (edges->used > 0) memcpy(slope, edges->slope, edges->used * sizeof *slope);
-    array_free(edges->slope);
-    edges->slope = slope;
-    edges->room = room;
-    return true;
+    edges->room = 2 * edges->room + MOST;
+    edges->slope = array_resized(edges->slope, edges->used, edges->room, sizeof *edges->slope);
+    return edges->slope != NULL;
 }
 
 /* Where the numbers behind those in use stand already, as those of one of the last points; else they are in use now. */
