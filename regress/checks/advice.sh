@@ -229,6 +229,9 @@ untold "longer waves on central differences" initial%centre=2,2 method%name=sph 
     told "stresses of particles beside a face" "stresses and strains that profiles and snapshots show err by up to about 0.18 within a spacing of faces" $stress=stress profile%from=1,.1 profile%to=3,.1
     untold "velocities there" $stress=velocity profile%from=1,.1 profile%to=3,.1
     untold "stresses inside" $stress=stress profile%from=1,1.5 profile%to=3,2.5
+    shown="initial%centre=2,2 method%name=sph method%gradient=central snapshot%times=1 snapshot%fields=stress"
+    told "a region of a snapshot beside a face" "show err by up to about 0.18 within a spacing of faces" $shown snapshot%region=1,0,3,.5
+    untold "a region inside" $shown snapshot%region=1,1.5,3,2.5
     exit $failures
 )
 failures=$?

@@ -139,8 +139,7 @@ static bool part_sees(const struct scene *scene, const void *of, const double pl
     return false;
 }
 
-/* What a snapshot shows and a spacing about it, on the lattice. */
-static void box_of(const struct scene *scene, const struct snapshot *snapshot, double low[3], double high[3])
+void snapshot_box(const struct scene *scene, const struct snapshot *snapshot, double low[3], double high[3])
 {
     double one[3], other[3];
     ground_from_deck(&scene->body, snapshot->region_low, one);
@@ -159,7 +158,7 @@ static double jump_in(const struct scene *scene, const struct snapshot *snapshot
 {
     double most = 0;
     struct part part = {.most = &most};
-    box_of(scene, snapshot, part.low, part.high);
+    snapshot_box(scene, snapshot, part.low, part.high);
     jumps_in(scene, part.low, part.high, part_sees, &part);
     return most;
 }
@@ -219,7 +218,7 @@ static struct rock worst_in(const struct scene *scene, const struct snapshot *sn
     const int down = scene->dimension - 1;
     struct rock worst = {0};
     double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
-    box_of(scene, snapshot, low, high);
+    snapshot_box(scene, snapshot, low, high);
     for (int n = 0; n < LOOKS * BESIDE * BESIDE; n++) {
         const int step[2] = {n / LOOKS % BESIDE, n / LOOKS / BESIDE};
         double place[3] = {0, 0, 0};

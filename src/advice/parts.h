@@ -119,6 +119,8 @@ void look_at_passed(struct adviser *adviser, size_t load);
 void look_at_interfaces(struct adviser *adviser);
 /* Stresses that are asked for where the rock jumps (fields.c). */
 void look_at_fields(struct adviser *adviser);
+/* What a snapshot shows and a spacing about it, on the lattice (fields.c). */
+void snapshot_box(const struct scene *scene, const struct snapshot *snapshot, double low[3], double high[3]);
 /* Stresses in rock that is nearly incompressible (fields.c). */
 void look_at_pressures(struct adviser *adviser);
 /* Rock that jumps in general ground (jumps.c, stacks.c, soft.c). */

@@ -266,17 +266,17 @@ static double error_of_sent(const struct scene *scene, const struct wave_law *wa
     return sent > 0 ? error_of_waves(scene, &law, k, way) + error_at_bare(scene, waves, k, way) : 0;
 }
 
-/* What strains err by more, at a place (none: anywhere) within a spacing of a face that is no mirror plane: more where
- * a patch, whose edges are jumps, presses on it. */
-static double error_beside_faces(const struct scene *scene, const double *place)
+/* What strains err by more, in a box that a face which is no mirror plane meets: more where a patch, whose edges are
+ * jumps, presses on it. */
+static double error_beside_faces(const struct scene *scene, const double low[3], const double high[3])
 {
     static const double one_sided = .1, jumps = .3;
-    const struct body *body = &scene->body;
     double most = 0;
     for (int face = 0; face < 2 * scene->dimension; face++) {
         const int axis = face / 2;
         if (boundary_mirrors(&scene->boundary[face])) continue;
-        if (place != NULL && fabs(place[axis] - face_plane(body, (enum face)face)) > body->spacing) continue;
+        const double plane = face_plane(&scene->body, (enum face)face);
+        if (plane < low[axis] || plane > high[axis]) continue;
         most = fmax(most, one_sided);
         for (size_t k = 0; k < scene->loads; k++)
             if (has_patch(&scene->load[k]) && (int)scene->load[k].face == face) most = jumps;
@@ -295,16 +295,22 @@ static bool shows_strains(const struct scene *scene, double *more)
         if ((scene->profile[k].fields & strains) == 0) continue;
         shown = true;
         for (size_t i = 0; i < scene->profile[k].points; i++) {
-            double deck[3] = {0.0}, place[3];
+            double deck[3] = {0.0}, place[3], low[3], high[3];
             profile_position(&scene->profile[k], i, deck);
             body_from_deck(&scene->body, deck, place);
-            *more = fmax(*more, error_beside_faces(scene, place));
+            for (int axis = 0; axis < 3; axis++) {
+                low[axis] = place[axis] - scene->body.spacing;
+                high[axis] = place[axis] + scene->body.spacing;
+            }
+            *more = fmax(*more, error_beside_faces(scene, low, high));
         }
     }
     for (size_t k = 0; k < scene->snapshots; k++) {
         if ((scene->snapshot[k].fields & strains) == 0) continue;
         shown = true;
-        if (scene->snapshot[k].whole) *more = fmax(*more, error_beside_faces(scene, NULL));
+        double low[3] = {0.0}, high[3] = {0.0};
+        snapshot_box(scene, &scene->snapshot[k], low, high);
+        *more = fmax(*more, error_beside_faces(scene, low, high));
     }
     return shown;
 }
