@@ -183,6 +183,10 @@ static void test_updated_lagrangian(void **state)
         plant(&family, "density", density, place, 2, NULL, fault);
         plant(&family, "stress", stress, place, 2, NULL, fault);
     }
+    static const struct family held = {"updated Lagrangian, held",
+                                       "name = 'sph', variant = 'updated-lagrangian', hourglass = .1", "",
+                                       "free to turn; method%variant"};
+    plant(&held, "density", density, place, 2, NULL, OVERFLOW);
 }
 
 /* The consistent method: control values of the body, of a layer, and the layer's memory. */

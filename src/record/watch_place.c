@@ -5,6 +5,7 @@
 #include "record/watch.h"
 
 #include "base/memory.h"
+#include "deck/deck.h"
 #include "parallel/ranks.h"
 
 #include <math.h>
@@ -160,6 +161,11 @@ static void say_step(const struct stepper *stepper, size_t size, char *text)
                  stepper->dt);
 }
 
+static bool is_held(const struct deck_group *method)
+{
+    return method != NULL && deck_values(method, "hourglass") > 0 && deck_real(method, "hourglass", 0) > 0;
+}
+
 /* The first of what is known to make runs grow that this run has. */
 static void name_cause(const struct recorder *recorder, size_t size, char *text)
 {
@@ -173,11 +179,11 @@ static void name_cause(const struct recorder *recorder, size_t size, char *text)
         snprintf(text, size, "material '%s' with nu = %.6g, near 0.5; try a smaller nu or time step",
                  stiff->name, stiff->poisson);
     else if (strcmp(recorder->model->method->variant, "updated-lagrangian") == 0)
-        snprintf(
-            text, size,
-            "displacements that alternate from particle to particle, which gradients do not see; "
-            "method%%hourglass = .1 held most bodies that grew so, method%%variant = 'total-lagrangian' all, "
-            "also those free to go under tractions");
+        snprintf(text, size,
+                 "displacements that alternate from particle to particle, which gradients do not see, or "
+                 "tractions "
+                 "on a body free to turn; %smethod%%variant = 'total-lagrangian' held all",
+                 is_held(scene->method.group) ? "" : "method%hourglass = .1 held most, ");
     else if (stepper->spectrum.viscous > 0.0 || recorder->model->spatial->linearise != NULL)
         snprintf(text, size,
                  "the body moves so fast or so far that the stability limit %.3g, measured at rest, does not "
