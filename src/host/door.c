@@ -3,14 +3,16 @@
 #include "host/simulation.h"
 
 #include <pthread.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Handles that are open: others, of a simulation that was closed or never opened, are not looked into. The lock is that
- * of simulation->inside, too. */
+/* Handles that are open: others, of a simulation that was closed or never opened, are not looked into. They are kept as
+ * numbers that are no addresses, so that leak checkers still see a simulation that its host has lost. The lock is that of
+ * simulation->inside, too. */
 static struct {
     pthread_mutex_t lock;
-    const selas_simulation **of;
+    uintptr_t *of;
     size_t count, room;
 } open_ones = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
@@ -20,11 +22,16 @@ static _Thread_local char thread;
 static _Thread_local const selas_simulation *refused;
 static _Thread_local const char *why = "";
 
+static uintptr_t number_of(const selas_simulation *simulation)
+{
+    return ~(uintptr_t)simulation;
+}
+
 /* Among those that are open; their number if it is none. */
 static size_t place_of(const selas_simulation *simulation)
 {
     size_t place = 0;
-    while (place < open_ones.count && open_ones.of[place] != simulation)
+    while (place < open_ones.count && open_ones.of[place] != number_of(simulation))
         place++;
     return place;
 }
@@ -34,14 +41,14 @@ bool door_open(const selas_simulation *simulation)
     pthread_mutex_lock(&open_ones.lock);
     if (open_ones.count == open_ones.room) {
         const size_t room = 2 * open_ones.room + 8;
-        const selas_simulation **grown = realloc((void *)open_ones.of, room * sizeof(void *));
+        uintptr_t *grown = realloc(open_ones.of, room * sizeof *grown);
         if (grown != NULL) {
             open_ones.of = grown;
             open_ones.room = room;
         }
     }
     const bool good = open_ones.count < open_ones.room;
-    if (good) open_ones.of[open_ones.count++] = simulation;
+    if (good) open_ones.of[open_ones.count++] = number_of(simulation);
     pthread_mutex_unlock(&open_ones.lock);
     return good;
 }
@@ -51,7 +58,7 @@ void door_close(const selas_simulation *simulation)
     pthread_mutex_lock(&open_ones.lock);
     open_ones.of[place_of(simulation)] = open_ones.of[open_ones.count - 1];
     if (--open_ones.count == 0) {
-        free((void *)open_ones.of);
+        free(open_ones.of);
         open_ones.of = NULL;
         open_ones.room = 0;
     }
