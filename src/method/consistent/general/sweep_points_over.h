@@ -243,11 +243,11 @@ INLINED void points_of(const bool x_knots, const bool y_knots, const bool made,
 INLINED lanes shifted(const int s, lanes one, lanes two)
 {
 #if defined(__GNUC__) && !defined(__clang__) /* it does not see one instruction in the loop */
-    lanes_number number;
+    lanes_number number = {0};
     UNROLLED for (int lane = 0; lane < LANES; lane++) number[lane] = lane + s;
     return __builtin_shuffle(one, two, number);
 #else
-    lanes both;
+    lanes both = {0};
     UNROLLED for (int lane = 0; lane < LANES; lane++) both[lane] =
         lane + s < LANES ? one[lane + s] : two[lane + s - LANES];
     return both;
