@@ -1143,6 +1143,7 @@ untold "small ones" check rough.nml
 rocks="across rocks of [.0-9]* times"
 untold "energy all over the body" check energy.nml
 told "that of a softer soil" "&snapshot 1 has stress.*$rocks.*err by up to about 0.23 within" check energy.nml 'material(2)%s_speed=.45'
+untold "velocity of that soil" check energy.nml 'material(2)%s_speed=.45' snapshot%fields=velocity
 told "that by particles" "&snapshot 1 has stress.*$smooth" check energy.nml 'layer(2)%dip=' method%name=sph
 told "that of level layers by the general operator" "&snapshot 1 has stress.*$rocks" check energy.nml 'layer(2)%dip=' method%operator=general 'material(2)%s_speed=.45'
 untold "energy of a part without an interface" check energy.nml snapshot%region=-4,2.4,4,4 'material(2)%s_speed=.45'

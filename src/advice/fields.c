@@ -159,7 +159,7 @@ static double jump_in(const struct scene *scene, const struct snapshot *snapshot
     double most = 0;
     struct part part = {.most = &most};
     snapshot_box(scene, snapshot, part.low, part.high);
-    jumps_in(scene, part.low, part.high, part_sees, &part);
+    if (by_law(snapshot->fields)) jumps_in(scene, part.low, part.high, part_sees, &part);
     return most;
 }
 
