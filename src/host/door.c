@@ -8,8 +8,8 @@
 #include <string.h>
 
 /* Handles that are open: others, of a simulation that was closed or never opened, are not looked into. They are kept as
- * numbers that are no addresses, so that leak checkers still see a simulation that its host has lost. The lock is that of
- * simulation->inside, too. */
+ * numbers that are no addresses, so that leak checkers still see a simulation that its host has lost. The lock is that
+ * of simulation->inside, too. */
 static struct {
     pthread_mutex_t lock;
     uintptr_t *of;
