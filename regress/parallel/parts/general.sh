@@ -35,6 +35,7 @@ same 4 "ground from a file that ranks read in pieces" $ground
 awk '/^ground values read/ { read = $7; all = $9 } END { exit !(all > 1.3e7 && read < .6 * all) }' "$work/ranks/report.txt"
 verdict $? "a rank reads no more of a model than its lattice needs"
 unset SELAS_MODEL_KEPT
+[ -z "${SELAS_SANITIZED:-}" ] || return 0 # sanitizers keep what is let go of
 quiet 4 $ground output%plots=F output%directory="$work/whole"
 awk -F ': ' '/^peak memory/ { peak[FILENAME] = $2 } END { exit !(peak[ARGV[1]] + .75 * 24 * 17 * 17 * 1921 < peak[ARGV[2]]) }' "$work/ranks/report.txt" "$work/whole/report.txt"
 verdict $? "no rank that reads a model in pieces has a quarter of it at once"
