@@ -7,7 +7,8 @@ module selas77
    use selas
    implicit none
 
-   ! The simulations that were opened here; SIM is the address of one. Of one that is closed the address is null.
+   ! The simulations that were opened here; SIM is the address of one. Of one that is closed the address is null, until
+   ! the next is opened.
    type :: opened
       type(selas_simulation), pointer :: simulation => null()
       type(opened), pointer :: next => null()
@@ -19,10 +20,18 @@ contains
       integer(int64), intent(out) :: sim
       type(selas_simulation), pointer :: made
       type(opened), pointer :: entry
-      allocate (made, entry)
+      allocate (made)
+      entry => first
+      do while (associated(entry))
+         if (.not. associated(entry%simulation)) exit
+         entry => entry%next
+      end do
+      if (.not. associated(entry)) then
+         allocate (entry)
+         entry%next => first
+         first => entry
+      end if
       entry%simulation => made
-      entry%next => first
-      first => entry
       sim = transfer(c_loc(made), sim)
    end function
 

@@ -35,9 +35,27 @@ static struct about about_knot(const struct consistent *c, const struct family *
     return about;
 }
 
-/* lambda over mu of a point, trace for trace. */
+/* The first of them, the next; false: there is none. */
+static bool first_about(const struct about *about, size_t at[3])
+{
+    memcpy(at, about->from, sizeof about->from);
+    return at[0] < about->end[0] && at[1] < about->end[1] && at[2] < about->end[2];
+}
+
+static bool next_about(const struct about *about, size_t at[3])
+{
+    for (int slot = 0; slot < 3; slot++) {
+        if (++at[slot] < about->end[slot]) return true;
+        at[slot] = about->from[slot];
+    }
+    return false;
+}
+
+/* lambda over mu of a point, of one that is not isotropic trace for trace. */
 static double ratio_at(const struct family *family, const size_t at[3])
 {
+    const size_t point = (at[2] * family->n[1] + at[1]) * family->n[0] + at[0];
+    if (family->mu[point] > 0) return family->lambda[point] / family->mu[point];
     double C[STRESSES][STRESSES] = {{0}}, spread = 0, all = 0;
     general_add_stiffness(family, at, 1, C);
     for (int p = 0; p < 3; p++) {
@@ -55,14 +73,13 @@ static bool varies_about(const struct consistent *c, const size_t knot[3])
     for (int f = 0; f < 3; f++) {
         const struct family *family = &c->general->family[f];
         const struct about about = about_knot(c, family, knot);
-        for (size_t k = about.from[2]; k < about.end[2]; k++)
-            for (size_t j = about.from[1]; j < about.end[1]; j++)
-                for (size_t i = about.from[0]; i < about.end[0]; i++) {
-                    const size_t at[3] = {i, j, k};
-                    if (general_is_turned(family, at)) return true;
-                    least = fmin(least, ratio_at(family, at));
-                    most = fmax(most, ratio_at(family, at));
-                }
+        size_t at[3];
+        for (bool more = first_about(&about, at); more; more = next_about(&about, at)) {
+            if (general_is_turned(family, at)) return true;
+            const double ratio = ratio_at(family, at);
+            if (ratio < least) least = ratio;
+            if (ratio > most) most = ratio;
+        }
     }
     return most - least > slight * (1 + fabs(least));
 }
@@ -148,10 +165,9 @@ static void find_means(const struct consistent *c, const size_t knot[3], const d
     for (int f = 0; f < 3; f++) {
         const struct family *family = &c->general->family[f];
         const struct about about = about_knot(c, family, knot);
-        for (size_t k = about.from[2]; k < about.end[2]; k++)
-            for (size_t j = about.from[1]; j < about.end[1]; j++)
-                for (size_t i = about.from[0]; i < about.end[0]; i++)
-                    add_point(c, family, (size_t[3]){i, j, k}, about.share, u, pull);
+        size_t at[3];
+        for (bool more = first_about(&about, at); more; more = next_about(&about, at))
+            add_point(c, family, at, about.share, u, pull);
     }
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -226,7 +242,7 @@ static void add_ratio(const struct consistent *c, const struct family *family, c
     sums->weight += weight;
     sums->m += weight * m;
     for (int slot = 0; slot < 3; slot++) {
-        const double first = (double)(knot[slot] - (slot == DEPTH ? c->general->first : 0));
+        const double first = (double)knot[slot] - (slot == DEPTH ? (double)c->general->first : 0);
         const double x = (double)at[slot] + (family->at[slot] == AT_MIDDLES ? .5 : 0) - first;
         sums->x[slot] += weight * x;
         sums->square[slot] += weight * x * x;
@@ -243,10 +259,9 @@ static bool find_rise(const struct consistent *c, const size_t knot[3], const do
     for (int f = 0; f < 3; f++) {
         const struct family *family = &c->general->family[f];
         const struct about about = about_knot(c, family, knot);
-        for (size_t k = about.from[2]; k < about.end[2]; k++)
-            for (size_t j = about.from[1]; j < about.end[1]; j++)
-                for (size_t i = about.from[0]; i < about.end[0]; i++)
-                    add_ratio(c, family, knot, (size_t[3]){i, j, k}, about.share, &sums);
+        size_t at[3];
+        for (bool more = first_about(&about, at); more; more = next_about(&about, at))
+            add_ratio(c, family, knot, at, about.share, &sums);
     }
     for (int slot = 0; slot < 3; slot++) {
         const struct spline *spline = c->layout[slot];
