@@ -51,10 +51,11 @@ struct metric metric_of(double stretch, double drop, const double slope[2], doub
 double consistent_drop(const struct consistent *c, const double place[3], double slope[2])
 {
     struct spline_point at[2] = {{.value = {1}}, {.value = {1}}};
-    int count[2] = {1, 1};
+    const int level = c->surface == NULL;
+    int count[2] = {!level, !level};
     double sum = 0, along[2] = {0, 0};
     for (int slot = 0; slot < 2; slot++) {
-        if (c->layout[slot] == NULL) continue;
+        if (level || c->layout[slot] == NULL) continue;
         spline_at(c->layout[slot], false, place[axis_of(c, slot)], &at[slot]);
         count[slot] = c->layout[slot]->degree + 1;
     }
@@ -70,13 +71,17 @@ double consistent_drop(const struct consistent *c, const double place[3], double
     return sum;
 }
 
-void consistent_to_ground(const struct consistent *c, double place[3])
+void consistent_to_ground_below(const struct consistent *c, double drop, double place[3])
 {
     const struct body *body = &c->model.scene->body;
     double *down = &place[c->dimension - 1];
     *down = grading_real(body->grading, *down);
-    if (body->topography != NULL)
-        *down = topography_real(body->topography, consistent_drop(c, place, NULL), *down);
+    if (body->topography != NULL) *down = topography_real(body->topography, drop, *down);
+}
+
+void consistent_to_ground(const struct consistent *c, double place[3])
+{
+    consistent_to_ground_below(c, consistent_drop(c, place, NULL), place);
 }
 
 struct metric consistent_metric(const struct consistent *c, const double place[3])

@@ -17,7 +17,9 @@ struct metric consistent_metric(const struct consistent *c, const double place[3
 struct metric metric_of(double stretch, double drop, const double slope[2], double share, double fall);
 /* A place of the lattice becomes one of the ground, by axis. */
 void consistent_to_ground(const struct consistent *c, double place[3]);
-/* s at a place of the lattice, by axis; its slopes by slot, unless slope is NULL. */
+/* The same below a surface whose s there is known. */
+void consistent_to_ground_below(const struct consistent *c, double drop, double place[3]);
+/* s at a place of the lattice, by axis, 0 below a level surface; its slopes by slot, unless slope is NULL. */
 double consistent_drop(const struct consistent *c, const double place[3], double slope[2]);
 
 /* Slopes along the lattice become those along the axes; stresses the pulls along the lattice. By slot. */

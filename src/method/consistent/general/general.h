@@ -60,6 +60,12 @@ struct hill {
     size_t level[2];               /* [at]: planes from here on are level */
 };
 
+/* What rise.c found about the place that was asked for last, by axis. */
+struct slopes_about {
+    bool known;
+    double place[3], slope[4][3];
+};
+
 struct general {
     size_t cells[3];            /* by slot; over depth those whose control values the window has */
     size_t first;               /* over depth: the first of them in the body */
@@ -81,6 +87,7 @@ struct general {
     double **buffer;             /* [threads] */
     size_t pitch, buffer_size;   /* of rows in the buffers; numbers of a buffer */
     size_t bytes, setup_bytes;   /* held; while the ground is averaged */
+    struct slopes_about slopes;
 };
 
 /* Builds c->general; needs c->hform and the loads. */

@@ -30,7 +30,7 @@ static void average(const struct column *column, const double *fine, double *at)
 {
     for (size_t q = 0; q + 1 < 2 * column->knots; q++) {
         double sum = 0, weights = 0;
-        for (size_t m = 0; m < samples(column); m++) {
+        for (size_t m = q * MANY / 2; m < q * MANY / 2 + 2 * BEFORE * MANY; m++) {
             const double away = ((double)m + .5) / MANY - BEFORE - (double)q * .5;
             const double k = piece_kernel(q % 2 == 0 ? AT_KNOTS : AT_MIDDLES, away);
             weights += k;

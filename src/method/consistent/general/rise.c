@@ -1,30 +1,50 @@
 /* Across which direction the rock changes about a moment tensor (doc/theory/general-ground.md, section 6). */
+#include "method/consistent/galerkin/surface.h"
 #include "method/consistent/general/glut.h"
 #include "method/consistent/general/piece.h"
+#include "scene/ground.h"
 
 #include <math.h>
+#include <string.h>
 
 static double level_of(const struct rock *rock)
 {
     return log(rock->lambda + 2 * rock->mu);
 }
 
+enum { REACH = 6, FINE = 3, FAR = REACH * FINE }; /* spacings; places in one */
+
+/* Place i, j, k of those about the source, by axis of the lattice; its steps by slot, in spacings. */
+static void place_beside(const struct glut *g, int i, int j, int k, double step[3], double place[3])
+{
+    const struct consistent *c = g->c;
+    step[0] = (double)i / FINE;
+    step[1] = (double)j / FINE;
+    step[2] = (double)k / FINE;
+    for (int axis = 0; axis < c->dimension; axis++)
+        place[axis] = g->centre[axis] + step[c->slot[axis]] * glut_spacing(c->spline[axis]);
+}
+
 /* Slopes of log M about the source along the lattice, first and second ones in turn as in (G10a), under a Gaussian of
  * variance 4: about the middle of a layer it rises to neither side. */
-static void find_slopes(const struct glut *g, double slope[4][3])
+static void sum_slopes(const struct glut *g, double slope[4][3])
 {
-    enum { REACH = 6, FINE = 3 }; /* spacings; places in one */
     const struct consistent *c = g->c;
-    const int far = REACH * FINE, beside = c->dimension == 2 ? 0 : far;
+    const int beside = c->dimension == 2 ? 0 : FAR;
     const struct rock own = consistent_rock_at(c, g->centre);
-    for (int k = -far; k <= far; k++)
+    double drop[2 * FAR + 1][2 * FAR + 1], step[3], place[3] = {0};
+    for (int j = -beside; j <= beside; j++)
+        for (int i = -FAR; i <= FAR; i++) {
+            place_beside(g, i, j, 0, step, place);
+            drop[j + beside][i + FAR] = consistent_drop(c, place, NULL);
+        }
+    for (int k = -FAR; k <= FAR; k++)
         for (int j = -beside; j <= beside; j++)
-            for (int i = -far; i <= far; i++) {
-                const double step[3] = {(double)i / FINE, (double)j / FINE, (double)k / FINE};
-                double place[3] = {0};
-                for (int axis = 0; axis < c->dimension; axis++)
-                    place[axis] = g->centre[axis] + step[c->slot[axis]] * glut_spacing(c->spline[axis]);
-                const struct rock rock = consistent_rock_at(c, place);
+            for (int i = -FAR; i <= FAR; i++) {
+                place_beside(g, i, j, k, step, place);
+                consistent_to_ground_below(c, drop[j + beside][i + FAR], place);
+                const struct rock rock = ground_at(c->model.scene, place);
+                if (rock.lambda + 2 * rock.mu == own.lambda + 2 * own.mu) continue;
                 const double away = step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
                 const double level = (level_of(&rock) - level_of(&own)) * exp(-away / 8);
                 for (int one = 0; one < c->dimension; one++) {
@@ -38,6 +58,18 @@ static void find_slopes(const struct glut *g, double slope[4][3])
             }
 }
 
+/* The same, once for all that is asked for at one place in turn. */
+static void find_slopes(const struct glut *g, double slope[4][3])
+{
+    struct slopes_about *last = &g->c->general->slopes;
+    const double *at = last->place, *now = g->centre;
+    if (!last->known || at[0] != now[0] || at[1] != now[1] || at[2] != now[2]) {
+        *last = (struct slopes_about){.known = true, .place = {g->centre[0], g->centre[1], g->centre[2]}};
+        sum_slopes(g, last->slope);
+    }
+    memcpy(slope, last->slope, sizeof last->slope);
+}
+
 /* The direction in which log M changes most about the source, from slopes along the lattice; the axis across is that of
  * the steepest of these. False: in none, or across a symmetry plane nearby. */
 static bool find_rise(struct glut *g)
@@ -45,7 +77,7 @@ static bool find_rise(struct glut *g)
     static const double slight = 1e-9, clear = 12; /* spacings from a symmetry plane */
     const struct consistent *c = g->c;
     const struct metric metric = consistent_metric(c, g->centre);
-    double slope[4][3] = {{0}}, turn[3][3] = {{0}}, rise[3];
+    double slope[4][3], turn[3][3] = {{0}}, rise[3];
     find_slopes(g, slope);
     for (int n = 0; n < 36; n++)
         turn[n / 3 % 3][n % 3] += slope[n / 9][n / 3 % 3] * slope[n / 9][n % 3];
