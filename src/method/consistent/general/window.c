@@ -141,44 +141,65 @@ static void place_of(const struct glut_window *w, size_t i, double place[3], boo
     }
 }
 
-/* Control values of a field of second order and more: u - 1/8 of its second differences, none at an end. */
-static void control_value(const struct glut_window *w, const struct steady *steady, const double place[3],
-                          double value[3])
+/* A control value's place in the ground, and then those a spacing away along each axis, but at an end of it. */
+enum { ABOUT = 7 };
+static size_t find_places(const struct glut_window *w, const double place[3], double there[ABOUT][3])
 {
     const struct consistent *c = w->c;
-    double there[3] = {place[0], place[1], place[2]}, here[3], beside[3];
-    consistent_to_ground(c, there);
-    steady_at(&w->line, steady, there, here);
-    memcpy(value, here, sizeof here);
+    size_t count = 0;
+    memcpy(there[count++], place, 3 * sizeof *place);
     for (int axis = 0; axis < c->dimension; axis++) {
         const struct spline *spline = c->spline[axis];
         const double spacing = glut_spacing(spline);
-        if (fmin(place[axis] - spline->low, spline->high - place[axis]) < .25 * spacing)
-            continue; /* at the end */
+        if (fmin(place[axis] - spline->low, spline->high - place[axis]) < .25 * spacing) continue;
         for (int side = -1; side <= 1; side += 2) {
-            memcpy(there, place, sizeof there);
-            there[axis] += side * spacing;
-            consistent_to_ground(c, there);
-            steady_at(&w->line, steady, there, beside);
-            for (int i = 0; i < c->dimension; i++)
-                value[i] -= (beside[i] - here[i]) / 8;
+            memcpy(there[count], place, 3 * sizeof *place);
+            there[count++][axis] += side * spacing;
+        }
+    }
+    for (size_t n = 0; n < count; n++)
+        consistent_to_ground(c, there[n]);
+    return count;
+}
+
+/* Control values of the fields, of second order and more: u - 1/8 of its second differences, none at an end. */
+static void lay_values(struct glut_window *w)
+{
+    const struct consistent *c = w->c;
+    for (size_t i = 0; i < c->volume; i++) {
+        double place[3] = {0}, there[ABOUT][3];
+        bool within;
+        place_of(w, i, place, &within);
+        const size_t places = find_places(w, place, there);
+        for (size_t state = 0; state < w->states; state++) {
+            double here[3], beside[3], *value = w->field + state * w->n + i;
+            steady_at(&w->line, &w->steady[state], there[0], here);
+            for (int a = 0; a < c->dimension; a++)
+                value[(size_t)a * c->volume] = here[a];
+            for (size_t n = 1; n < places; n++) {
+                steady_at(&w->line, &w->steady[state], there[n], beside);
+                for (int a = 0; a < c->dimension; a++)
+                    value[(size_t)a * c->volume] -= (beside[a] - here[a]) / 8;
+            }
         }
     }
 }
 
-/* Adds what a field pulls at the ground through a free face: it has its stress there, and the face has none. */
-static void add_pull(struct glut_window *w, const struct steady *steady, int axis, int side, double *rest)
+/* Adds what the fields pull at the ground through a free face: they have their stress there, and the face has none. */
+static void add_pulls(struct glut_window *w, int axis, int side)
 {
+    enum { MOST = SPLINE_MAX_LOCAL * SPLINE_MAX_LOCAL };
     const struct consistent *c = w->c;
     const int along[2] = {axis == 0 ? 1 : 0, axis == 2 ? 1 : 2}, faces = c->dimension - 1;
     const struct spline *first = c->spline[along[0]], *second = faces == 2 ? c->spline[along[1]] : NULL;
     const double step[2] = {glut_spacing(first) / PLACES, faces == 2 ? glut_spacing(second) / PLACES : 1};
     const size_t count[2] = {PLACES * first->cells, faces == 2 ? PLACES * second->cells : 1};
     const size_t stride[3] = {1, c->n[0], c->plane}, end = side == 0 ? 0 : c->n[c->slot[axis]] - 1;
-    const size_t local = (size_t)first->degree + 1;
+    const size_t local = (size_t)first->degree + 1, shares = faces == 2 ? local * local : local;
     struct spline_point at[2] = {{.value = {1}}, {.value = {1}}};
     for (size_t n = 0; n < count[0] * count[1]; n++) {
-        double place[3] = {0}, normal[3] = {0}, face[3] = {0}, pull[3];
+        double place[3] = {0}, normal[3] = {0}, face[3] = {0}, pull[3], share[MOST];
+        size_t number[MOST];
         place[axis] = side == 0 ? c->spline[axis]->low : c->spline[axis]->high;
         place[along[0]] = first->low + ((double)(n % count[0]) + .5) * step[0];
         const size_t row = n / count[0];
@@ -186,44 +207,45 @@ static void add_pull(struct glut_window *w, const struct steady *steady, int axi
         const struct metric metric = consistent_metric(c, place);
         for (int f = 0; f < faces && f < 2; f++)
             spline_at(c->spline[along[f]], false, place[along[f]], &at[f]);
+        for (size_t i = 0; i < shares; i++) {
+            const size_t one = i % local, other = i / local;
+            share[i] = at[0].value[one] * at[1].value[other];
+            number[i] = end * stride[c->slot[axis]] + at[0].index[one] * stride[c->slot[along[0]]] +
+                        (faces == 2 ? at[1].index[other] * stride[c->slot[along[1]]] : 0);
+        }
         face[c->slot[axis]] = (side == 0 ? -1 : 1) * step[0] * step[1] * metric.jacobian;
         metric_tilt(&metric, face);
         for (int a = 0; a < c->dimension; a++)
             normal[a] = face[c->slot[a]];
         consistent_to_ground(c, place);
-        steady_pull(&w->line, steady, place, normal, pull);
-        for (size_t i = 0; i < local * (faces == 2 ? local : 1); i++) {
-            const size_t one = i % local, other = i / local;
-            const size_t number = end * stride[c->slot[axis]] + at[0].index[one] * stride[c->slot[along[0]]] +
-                                  (faces == 2 ? at[1].index[other] * stride[c->slot[along[1]]] : 0);
-            for (int a = 0; a < c->dimension; a++)
-                rest[(size_t)a * c->volume + number] += at[0].value[one] * at[1].value[other] * pull[a];
+        for (size_t state = 0; state < w->states; state++) {
+            steady_pull(&w->line, &w->steady[state], place, normal, pull);
+            for (int a = 0; a < c->dimension; a++) {
+                double *rest = w->rest + state * w->n + (size_t)a * c->volume;
+                for (size_t i = 0; i < shares; i++)
+                    rest[number[i]] += share[i] * pull[a];
+            }
         }
     }
 }
 
-static void lay_field(struct glut_window *w, size_t state)
+/* What is left of the forces of each field where control values are free. */
+static void lay_rests(struct glut_window *w)
 {
     struct consistent *c = w->c;
-    const struct steady *steady = &w->steady[state];
-    double *field = w->field + state * w->n, *rest = w->rest + state * w->n, pull[3];
-    steady_acceleration(&w->line, steady, pull);
-    for (size_t i = 0; i < c->volume; i++) {
-        double place[3] = {0}, value[3] = {0};
-        bool within;
-        place_of(w, i, place, &within);
-        control_value(w, steady, place, value);
-        for (int component = 0; component < c->dimension; component++) {
-            field[(size_t)component * c->volume + i] = value[component];
-            w->work[0][(size_t)component * c->volume + i] = pull[component];
-        }
-    }
-    general_weigh(c, w->work[0], w->work[1]);
-    general_forces(c, field, NULL, rest);
+    for (size_t state = 0; state < w->states; state++)
+        general_forces(c, w->field + state * w->n, NULL, w->rest + state * w->n);
     for (int end = 0; end < 2 * c->dimension; end++)
-        if (w->bare[end / 2][end % 2]) add_pull(w, steady, end / 2, end % 2, rest);
-    for (size_t i = 0; i < w->n; i++)
-        rest[i] = w->loose[i] ? rest[i] - w->work[1][i] : 0;
+        if (w->bare[end / 2][end % 2]) add_pulls(w, end / 2, end % 2);
+    for (size_t state = 0; state < w->states; state++) {
+        double *rest = w->rest + state * w->n, pull[3];
+        steady_acceleration(&w->line, &w->steady[state], pull);
+        for (size_t i = 0; i < w->n; i++)
+            w->work[0][i] = pull[i / c->volume];
+        general_weigh(c, w->work[0], w->work[1]);
+        for (size_t i = 0; i < w->n; i++)
+            rest[i] = w->loose[i] ? rest[i] - w->work[1][i] : 0;
+    }
 }
 
 static bool lay_fields(struct glut_window *w)
@@ -253,8 +275,8 @@ static bool lay_fields(struct glut_window *w)
             w->weight[i] =
                 ground_line_at(&w->line, place)->mu * pow(1 - square / (GLUT_REACH * GLUT_REACH), 2);
     }
-    for (size_t state = 0; state < w->states; state++)
-        lay_field(w, state);
+    lay_values(w);
+    lay_rests(w);
     return true;
 }
 
