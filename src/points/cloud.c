@@ -30,6 +30,7 @@ selas_status cloud_allocate(int dimension, size_t points, struct cloud **cloud, 
     if (*cloud != NULL) {
         (*cloud)->dimension = dimension;
         (*cloud)->points = (*cloud)->whole = points;
+        (*cloud)->axis = dimension - 1;
         (*cloud)->low = -INFINITY;
         (*cloud)->high = INFINITY;
         (*cloud)->position = array_new(3 * points, sizeof(double));
@@ -47,6 +48,10 @@ void cloud_free(struct cloud **cloud)
     if (cloud == NULL || *cloud == NULL) return;
     array_free((*cloud)->position);
     array_free((*cloud)->volume);
+    array_free((*cloud)->start);
+    array_free((*cloud)->number);
+    if ((*cloud)->all != NULL) array_free((*cloud)->all->position);
+    array_free((*cloud)->all);
     free((*cloud)->element);
     array_free(*cloud);
     *cloud = NULL;
@@ -140,6 +145,7 @@ static selas_status check(const struct scene *scene, struct messages *messages)
 double cloud_volume(const struct cloud *cloud)
 {
     double volume = 0;
+    if (cloud->all != NULL) return cloud->all->volume;
     for (size_t i = 0; i < cloud->points; i++)
         volume += cloud->volume[i];
     return volume;

@@ -8,6 +8,8 @@
 
 #include "scene/scene.h"
 
+#include <stdint.h>
+
 /* A piece of the surface: a face of the box, of the hole, or FACES for surfaces without a name (files). */
 struct face_element {
     double position[3]; /* its middle, on the surface */
@@ -17,13 +19,24 @@ struct face_element {
     int face; /* enum face or FACES */
 };
 
-/* Of a body whose points are made in planes over its last axis, a part: the points first .. first + points - 1 in
- * the body's order, and the elements of its surface whose last coordinate is low .. high. */
+/* What a part of points of a file knows of the whole body. */
+struct cloud_all {
+    double volume, spacing, square;           /* sum; largest volume^(1 / dimension); cloud_mean_power() of order 2 */
+    size_t elements, of_face[FACES];          /* of the surface, and those on each face */
+    double area[FACES], *position; /* on each face; of all points, deck coordinates, [3 * whole] */
+};
+
+/* Of a body whose points stand in planes or layers over an axis, a part: the points first .. first + points - 1 in
+ * the body's order, and the elements of its surface whose coordinate along the axis is low .. high. */
 struct cloud {
     int dimension;
     size_t points;
     size_t first, whole; /* 0 and `points` where it is no part */
+    int axis;            /* the last one; of points of a file in layers the longest */
     double low, high;
+    size_t layers, *start;  /* points of a file in layers: the first of each, [layers + 1]; else 0, NULL */
+    uint32_t *number;       /* [whole] of the same: their places in the file, from 0 on; else NULL */
+    struct cloud_all *all;  /* of a part of them; else NULL */
     double *position; /* [3 * points] */
     double *volume;   /* [points] */
     double spacing;   /* nominal */
@@ -50,7 +63,20 @@ size_t cloud_margin(const struct scene *scene);
 void cloud_place(const struct scene *scene, size_t point, double position[3]);
 void cloud_free(struct cloud **cloud);
 
-double cloud_volume(const struct cloud *cloud); /* of all points */
+/* points/layers.c: sorts points of a file into layers, about a spacing thick, over the longest axis of the body's box
+ * (of several the last), in each of which they keep their order; elements of the surface too. SELAS_NO_MEMORY. */
+selas_status cloud_sort(struct cloud *cloud, const struct body *body, struct messages *messages);
+/* The layer that a place of the body's frame is in; those beyond the ends are in the first and last one. */
+size_t cloud_layer(const struct cloud *cloud, const struct body *body, const double place[3]);
+/* The layers from .. end - 1 of such a cloud, in place of it, whatever the status. SELAS_NO_MEMORY. */
+selas_status cloud_cut(struct cloud **cloud, const struct body *body, size_t from, size_t end,
+                       struct messages *messages);
+/* Elements of the surface that the whole body has on a face, and their area. */
+size_t cloud_on_face(const struct cloud *cloud, int face, double *area);
+/* The number of a point in the body or its file, from 1 on, for messages. */
+size_t cloud_number(const struct cloud *cloud, size_t point);
+
+double cloud_volume(const struct cloud *cloud); /* of all points of the body */
 /* The same over the volume of the body's box. */
 double cloud_filling(const struct cloud *cloud, const struct body *body);
 /* Volume (area, length) of the body: box minus hole. */

@@ -44,6 +44,7 @@ selas_status cloud_local_spacing(const struct cloud *cloud, double *spacing, str
 double cloud_mean_power(const struct cloud *cloud, double order)
 {
     double sum = 0, volume = 0;
+    if (cloud->all != NULL && order == 2) return cloud->all->square;
     for (size_t i = 0; i < cloud->points; i++) {
         sum += cloud->volume[i] * pow(own_spacing(cloud, i) / cloud->spacing, order);
         volume += cloud->volume[i];

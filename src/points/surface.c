@@ -9,7 +9,7 @@ selas_status cloud_add_element(struct cloud *cloud, const struct face_element *e
                                struct messages *messages)
 {
     enum { CHUNK = 64 };
-    const double place = element->position[cloud->dimension - 1];
+    const double place = element->position[cloud->axis];
     if (place < cloud->low || place > cloud->high) return SELAS_OK;
     if (cloud->elements % CHUNK == 0) {
         struct face_element *larger =

@@ -36,6 +36,11 @@ static void give_index(const struct list *list, size_t row, double *value)
     *value = (double)listed(list, row);
 }
 
+static void give_number(const struct list *list, size_t row, double *value)
+{
+    *value = list->model->number[row];
+}
+
 /* A table, some rows at a time: a lattice does not store its points. */
 static void write_list(struct walk *walk, const char *name, hid_t type, size_t rows, size_t columns,
                        const struct list *list,
@@ -84,6 +89,8 @@ void hdf_points(const struct recorder *recorder, struct walk *walk)
         H5Gclose(points);
     }
     write_list(walk, "/points/position", H5T_IEEE_F64LE, model->points, 3, &all, give_position);
+    if (model->number != NULL)
+        write_list(walk, "/points/number", H5T_STD_U64LE, model->points, 1, &all, give_number);
     for (size_t s = 0; s < recorder->scene->snapshots; s++) {
         const struct snapshot_record *record = &recorder->snapshot[s];
         const struct list some = {model, record};

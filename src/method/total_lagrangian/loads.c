@@ -15,7 +15,7 @@ struct gather {
 /* All points that a value at a place is taken from are this rank's. Where they are not, none of its own is one. */
 static bool within(const struct tl_model *tl, const double place[3])
 {
-    const double along = place[tl->cloud->dimension - 1], radius = tl_probe_radius(tl);
+    const double along = place[tl->cloud->axis], radius = tl_probe_radius(tl);
     return along - radius >= tl->cloud->low && along + radius <= tl->cloud->high;
 }
 
@@ -148,8 +148,7 @@ static selas_status check_areas(const struct tl_model *tl, struct messages *mess
         double area = 0;
         for (size_t k = 0; k < scene->loads; k++)
             acts = acts || (scene->load[k].kind == LOAD_TRACTION && scene->load[k].face == (enum face)face);
-        for (size_t e = 0; acts && e < tl->cloud->elements; e++)
-            if (tl->cloud->element[e].face == face) area += tl->cloud->element[e].area;
+        if (acts) cloud_on_face(tl->cloud, face, &area);
         for (int c = 0; c < scene->dimension; c++)
             if (c != face_axis((enum face)face)) area /= body->high[c] - body->low[c];
         if (area > 1.02)

@@ -183,7 +183,7 @@ static selas_status make(struct tl_making *making, struct tl_making *below, enum
                          struct messages *messages)
 {
     struct tl_model *tl = making->tl;
-    const size_t under = (tl->cloud->first + made(tl, kind).from) / tl->part.plane - 1;
+    const size_t under = (tl->cloud->first + made(tl, kind).from) / tl->part.plane - 1; /* of a lattice */
     const bool of_materials = (kind == PAIR || kind == VISCOUS) && tl->model.scene->materials > 1;
     selas_status status = begin_rows(tl, kind) ? SELAS_OK : tl_no_memory(tl, messages);
     if (status == SELAS_OK && below->tl != NULL && of_materials)

@@ -24,26 +24,60 @@
 
 #include <math.h>
 
-static double one(const void *context, size_t place)
+/* Places of the points of all planes. */
+static bool number_planes(struct tl_part *part, const size_t *layer_start)
 {
-    (void)context;
-    (void)place;
-    return 1;
+    part->start = array_new(part->planes + 1, sizeof *part->start);
+    for (size_t p = 0; part->start != NULL && p <= part->planes; p++)
+        part->start[p] = layer_start != NULL ? layer_start[p] : p * part->plane;
+    return part->start != NULL;
 }
 
-/* Deals out `planes` of part->plane points each. */
-static selas_status deal(struct tl_model *tl, size_t planes, struct messages *messages)
+/* Planes that have points: the k-th of them for all k, or how many there are (filled NULL). */
+static size_t find_filled(const struct tl_part *part, size_t *filled)
+{
+    size_t count = 0;
+    for (size_t p = 0; p < part->planes; p++) {
+        if (part->start[p] == part->start[p + 1]) continue;
+        if (filled != NULL) filled[count] = p;
+        count++;
+    }
+    return count;
+}
+
+struct filled {
+    const size_t *start, *plane;
+};
+
+static double points_of(const void *context, size_t place)
+{
+    const struct filled *filled = context;
+    return (double)(filled->start[filled->plane[place] + 1] - filled->start[filled->plane[place]]);
+}
+
+/* Deals out the planes by their points; each rank has some. */
+static selas_status deal(struct tl_model *tl, struct messages *messages)
 {
     struct tl_part *part = &tl->part;
-    const selas_status status = ranks_at_most(part->ranks, planes, "planes over its last axis", messages);
+    const size_t count = find_filled(part, NULL);
+    const char *what = tl->cloud != NULL ? "layers of points" : "planes over its last axis";
+    const selas_status status = ranks_at_most(part->ranks, count, what, messages);
     if (status != SELAS_OK) return status;
     const size_t ranks = (size_t)ranks_count(part->ranks);
+    size_t *filled = array_new(count, sizeof *filled);
+    part->dealt = array_new(ranks + 1, sizeof *part->dealt);
     part->bound = array_new(ranks + 1, sizeof *part->bound);
-    if (part->bound == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
-    ranks_deal(planes, one, NULL, ranks, part->bound);
-    for (size_t r = 0; r <= ranks; r++)
-        part->bound[r] *= part->plane; /* of points */
-    return SELAS_OK;
+    const bool room = filled != NULL && part->dealt != NULL && part->bound != NULL;
+    if (room) {
+        find_filled(part, filled);
+        ranks_deal(count, points_of, &(struct filled){part->start, filled}, ranks, part->dealt);
+        for (size_t r = 0; r <= ranks; r++) {
+            part->dealt[r] = r == 0 ? 0 : r == ranks ? part->planes : filled[part->dealt[r]];
+            part->bound[r] = part->start[part->dealt[r]];
+        }
+    }
+    array_free(filled);
+    return room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
 }
 
 /* From plane to plane; may begin before the body and end behind it. */
@@ -57,13 +91,13 @@ static struct planes about(struct planes planes, ptrdiff_t more)
 }
 
 /* Points of the part, which begins at plane `first`, in some of the body's planes. */
-static struct tl_range points_in(const struct tl_model *tl, const size_t grid[3], ptrdiff_t first,
-                                 struct planes planes)
+static struct tl_range points_in(const struct tl_part *part, ptrdiff_t first, struct planes planes)
 {
-    const ptrdiff_t last = (ptrdiff_t)grid[tl->model.scene->dimension - 1], plane = (ptrdiff_t)tl->part.plane;
+    const ptrdiff_t last = (ptrdiff_t)part->planes;
     if (planes.from < first || first == 0) planes.from = first;
     if (planes.end > last) planes.end = last;
-    return (struct tl_range){(size_t)((planes.from - first) * plane), (size_t)((planes.end - first) * plane)};
+    const size_t before = part->start[first];
+    return (struct tl_range){part->start[planes.from] - before, part->start[planes.end] - before};
 }
 
 /* Volume^(1/dimension) of the points of a lattice. */
@@ -75,6 +109,18 @@ static double even_spacing(const struct scene *scene, const size_t grid[3])
     return pow(volume, 1.0 / scene->dimension);
 }
 
+/* Planes that a block of points that begins in one ends in or before, wherever it begins. */
+static ptrdiff_t planes_of_block(const struct tl_part *part)
+{
+    size_t most = 1;
+    for (size_t from = 0, end = 1; from < part->planes; from++) {
+        while (end < part->planes && part->start[end] - part->start[from] <= TL_LONGEST_BLOCK)
+            end++;
+        if (end - from > most) most = end - from;
+    }
+    return (ptrdiff_t)most;
+}
+
 /* Of points of even spacing, or of the largest that any has, the numbers of planes that rows reach over. */
 struct reaches {
     ptrdiff_t row, pair, layers, block;
@@ -83,63 +129,67 @@ struct reaches {
 static struct reaches reaches_of(const struct tl_model *tl, const size_t grid[3], double spacing)
 {
     const struct scene *scene = tl->model.scene;
-    const int last = scene->dimension - 1;
-    const double step = (scene->body.high[last] - scene->body.low[last]) / (double)grid[last];
+    const double step = tl_plane_step(tl);
     const double radius = (1 + 1e-9) * 1.5 * tl_reach(&tl->options) * spacing;
-    const double moved = 2 * scene->body.jitter * scene->body.spacing; /* two points, towards each other */
+    const double jitter = grid[0] > 0 ? scene->body.jitter * scene->body.spacing : 0;
+    const double moved = 2 * jitter; /* two points, towards each other */
     const ptrdiff_t pair = (ptrdiff_t)ceil((tl_pair_radius(spacing) + moved) / step);
     const ptrdiff_t search = (ptrdiff_t)ceil((radius + moved) / step);
     return (struct reaches){.row = search > pair ? search : pair,
                             .pair = pair,
                             .layers = 2 * (ptrdiff_t)tl_layers_within(scene, grid, radius),
-                            .block = TL_LONGEST_BLOCK / (ptrdiff_t)tl->part.plane + 1};
+                            .block = planes_of_block(&tl->part)};
 }
 
 /* Planes that are made on either side of the own ones (Eq. R7). */
-static ptrdiff_t beside(const struct scene *scene, const struct reaches *by)
+static ptrdiff_t beside(const struct scene *scene, const size_t grid[3], const struct reaches *by)
 {
-    return 2 * by->row + (by->pair > by->block ? by->pair : by->block) + 2 + (ptrdiff_t)cloud_margin(scene);
+    const ptrdiff_t margin = grid[0] > 0 ? (ptrdiff_t)cloud_margin(scene) : 0;
+    return 2 * by->row + (by->pair > by->block ? by->pair : by->block) + 2 + margin;
 }
 
 /* Chooses which rows are made (Eqs R5 to R7); returns the planes of the part. */
-static struct planes choose(struct tl_model *tl, const size_t grid[3], struct planes own)
+static struct planes choose(struct tl_model *tl, const size_t grid[3])
 {
     struct tl_part *part = &tl->part;
     const struct scene *scene = tl->model.scene;
+    const size_t *dealt = part->dealt + ranks_me(part->ranks);
+    const struct planes own = {(ptrdiff_t)dealt[0], (ptrdiff_t)dealt[1]};
     const double spacing = part->spacing > 0 ? part->spacing : even_spacing(scene, grid);
     const struct reaches by = reaches_of(tl, grid, spacing);
-    const ptrdiff_t planes = (ptrdiff_t)grid[scene->dimension - 1];
-    const bool even = !(scene->body.jitter > 0), at_top = own.from >= planes - by.layers;
+    const ptrdiff_t planes = (ptrdiff_t)part->planes;
+    const bool even = grid[0] > 0 && !(scene->body.jitter > 0), at_top = own.from >= planes - by.layers;
     const struct planes force = {even && at_top ? planes - by.layers - 1 : own.from, own.end};
     const struct planes gradient = about(force, by.row + by.pair), pair = about(force, by.row + by.block);
-    const struct planes all = about(force, beside(scene, &by));
+    const struct planes all = about(force, beside(scene, grid, &by));
     /* are the rows of its first plane those of planes below it? */
     const bool begins = even ? all.from + by.row < by.layers + 2 : all.from < 0;
     const ptrdiff_t first = begins ? 0 : all.from;
-    part->gradient = points_in(tl, grid, first, gradient);
-    part->transposed = points_in(tl, grid, first, force);
-    part->pair = points_in(tl, grid, first, pair);
+    part->gradient = points_in(part, first, gradient);
+    part->transposed = points_in(part, first, force);
+    part->pair = points_in(part, first, pair);
     part->reach = begins || !even ? 0 : (size_t)by.row;
     part->layers = begins || !even ? 0 : (size_t)by.layers;
     return (struct planes){first, all.end < planes ? all.end : planes};
 }
 
 /* Together, whatever the status so far: the largest spacing of points with jitter. */
-static selas_status find_spacing(struct tl_model *tl, const size_t grid[3], struct planes own,
-                                 selas_status status, struct messages *messages)
+static selas_status find_spacing(struct tl_model *tl, selas_status status, struct messages *messages)
 {
     struct tl_part *part = &tl->part;
     const struct scene *scene = tl->model.scene;
-    const ptrdiff_t planes = (ptrdiff_t)grid[scene->dimension - 1], plane = (ptrdiff_t)part->plane;
-    const struct planes more = about(own, (ptrdiff_t)cloud_margin(scene));
-    const size_t from = more.from > 0 ? (size_t)more.from : 0;
-    const size_t end = (size_t)(more.end < planes ? more.end : planes);
+    const size_t margin = cloud_margin(scene), *dealt = part->dealt + ranks_me(part->ranks);
     struct cloud *cloud = NULL;
-    if (status == SELAS_OK) status = cloud_create_planes(scene, from, end, &cloud, messages);
+    if (status == SELAS_OK) {
+        const size_t from = dealt[0] < margin ? 0 : dealt[0] - margin;
+        const size_t end = part->planes - dealt[1] < margin ? part->planes : dealt[1] + margin;
+        status = cloud_create_planes(scene, from, end, &cloud, messages);
+    }
     status = tl_agree(tl, status, messages);
     double spacing = 0;
-    for (ptrdiff_t i = own.from * plane; status == SELAS_OK && cloud != NULL && i < own.end * plane; i++)
-        spacing = fmax(spacing, pow(cloud->volume[(size_t)i - cloud->first], 1.0 / scene->dimension));
+    for (size_t i = status == SELAS_OK ? part->start[dealt[0]] : 0;
+         status == SELAS_OK && cloud != NULL && i < part->start[dealt[1]]; i++)
+        spacing = fmax(spacing, pow(cloud->volume[i - cloud->first], 1.0 / scene->dimension));
     if (status == SELAS_OK) ranks_largest(part->ranks, 1, &spacing);
     part->spacing = spacing;
     cloud_free(&cloud);
@@ -149,33 +199,33 @@ static selas_status find_spacing(struct tl_model *tl, const size_t grid[3], stru
 /* Deals out the planes of a lattice and makes the part of this rank. */
 static selas_status make_part(struct tl_model *tl, const size_t grid[3], struct messages *messages)
 {
-    struct tl_part *part = &tl->part;
-    const size_t planes = grid[tl->model.scene->dimension - 1], me = (size_t)ranks_me(part->ranks);
-    struct planes own = {0, 0};
-    selas_status status = deal(tl, planes, messages);
+    selas_status status = deal(tl, messages);
     if (status == SELAS_STOPPED) return status;
-    if (status == SELAS_OK)
-        own = (struct planes){(ptrdiff_t)(part->bound[me] / part->plane),
-                              (ptrdiff_t)(part->bound[me + 1] / part->plane)};
-    if (tl->model.scene->body.jitter > 0) status = find_spacing(tl, grid, own, status, messages);
+    if (tl->model.scene->body.jitter > 0) status = find_spacing(tl, status, messages);
     if (status != SELAS_OK) return status;
-    const struct planes all = choose(tl, grid, own);
+    const struct planes all = choose(tl, grid);
     return cloud_create_planes(tl->model.scene, (size_t)all.from, (size_t)all.end, &tl->cloud, messages);
 }
 
-/* Makes all points; divide.c deals them out when their rows are there. */
+/* All points; divide.c deals them out when their rows are there. */
+static selas_status take_all(struct tl_model *tl, struct messages *messages)
+{
+    struct tl_part *part = &tl->part;
+    const size_t n = tl->cloud->points, *grid = tl->cloud->grid;
+    part->axis = tl->cloud->axis;
+    part->plane = grid[0] > 0 ? n / grid[tl->cloud->dimension - 1] : 1;
+    part->planes = n / part->plane;
+    part->gradient = part->transposed = part->pair = (struct tl_range){0, n};
+    return part->ranks != NULL ? ranks_at_most(part->ranks, n, "points", messages) : SELAS_OK;
+}
+
 static selas_status make_all(struct tl_model *tl, struct messages *messages)
 {
     const struct scene *scene = tl->model.scene;
     const struct tl_form *form = tl->options.form;
-    struct tl_part *part = &tl->part;
-    selas_status status =
+    const selas_status status =
         form != NULL ? form->points(scene, &tl->cloud, messages) : cloud_create(scene, &tl->cloud, messages);
-    if (status != SELAS_OK) return status;
-    const size_t n = tl->cloud->points, *grid = tl->cloud->grid;
-    part->plane = grid[0] > 0 ? n / grid[tl->cloud->dimension - 1] : 1;
-    part->gradient = part->transposed = part->pair = (struct tl_range){0, n};
-    return part->ranks != NULL ? ranks_at_most(part->ranks, n, "points", messages) : SELAS_OK;
+    return status == SELAS_OK ? take_all(tl, messages) : status;
 }
 
 /* Memory is shared over the planes of a lattice where these are across its longest axis, or where a rank has as many
@@ -188,20 +238,56 @@ static bool pays(const struct tl_model *tl, const size_t grid[3])
     for (size_t c = 0; c < last; c++)
         longest = longest && grid[c] <= grid[last];
     const struct reaches by = reaches_of(tl, grid, even_spacing(scene, grid));
-    return longest || grid[last] / (size_t)ranks_count(tl->part.ranks) >= 2 * (size_t)beside(scene, &by);
+    return longest || grid[last] / (size_t)ranks_count(tl->part.ranks) >= 2 * (size_t)beside(scene, grid, &by);
+}
+
+/* Points of a file: all are read by each rank, which keeps its part where that has fewer layers than the body. */
+static selas_status make_of_file(struct tl_model *tl, struct messages *messages)
+{
+    static const size_t no_grid[3] = {0};
+    struct tl_part *part = &tl->part;
+    const struct scene *scene = tl->model.scene;
+    selas_status status = cloud_create(scene, &tl->cloud, messages);
+    if (status == SELAS_OK) status = cloud_sort(tl->cloud, &scene->body, messages);
+    if (part->ranks == NULL && status == SELAS_OK) return take_all(tl, messages);
+    if (part->ranks == NULL) return status;
+    if (status == SELAS_OK) {
+        part->axis = tl->cloud->axis;
+        part->planes = tl->cloud->layers;
+        part->plane = 1;
+        for (size_t i = 0; i < tl->cloud->points; i++)
+            part->spacing = fmax(part->spacing, pow(tl->cloud->volume[i], 1.0 / scene->dimension));
+        if (!number_planes(part, tl->cloud->start))
+            status = fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
+    }
+    status = ranks_agree(part->ranks, status, messages);
+    if (status != SELAS_OK) return status;
+    const struct reaches by = reaches_of(tl, no_grid, part->spacing);
+    const size_t ranks = (size_t)ranks_count(part->ranks), ends = ranks > 2 ? 2 : 1;
+    part->shared = part->planes / ranks + 1 + ends * (size_t)beside(scene, no_grid, &by) < part->planes;
+    if (!part->shared) return take_all(tl, messages);
+    status = deal(tl, messages);
+    if (status != SELAS_OK) return status;
+    const struct planes all = choose(tl, no_grid);
+    return cloud_cut(&tl->cloud, &scene->body, (size_t)all.from, (size_t)all.end, messages);
 }
 
 selas_status tl_make_points(struct tl_model *tl, struct messages *messages)
 {
     const struct scene *scene = tl->model.scene;
+    struct tl_part *part = &tl->part;
     size_t grid[3] = {0};
-    bool planes = false;
-    if (ranks_count(scene->ranks) > 1) tl->part.ranks = scene->ranks;
-    if (tl->part.ranks != NULL && tl->options.form == NULL && cloud_in_planes(scene, grid)) {
-        tl->part.plane = grid[0] * grid[1] * grid[2] / grid[scene->dimension - 1];
-        planes = tl->part.shared = pays(tl, grid);
-    }
-    return planes ? make_part(tl, grid, messages) : make_all(tl, messages);
+    if (ranks_count(scene->ranks) > 1) part->ranks = scene->ranks;
+    if (tl->options.form == NULL && scene->body.shape == BODY_POINTS && scene->body.file != NULL)
+        return make_of_file(tl, messages);
+    if (part->ranks == NULL || tl->options.form != NULL || !cloud_in_planes(scene, grid))
+        return make_all(tl, messages);
+    part->axis = scene->dimension - 1;
+    part->planes = grid[part->axis];
+    part->plane = grid[0] * grid[1] * grid[2] / part->planes;
+    if (!number_planes(part, NULL)) return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
+    part->shared = pays(tl, grid);
+    return part->shared ? make_part(tl, grid, messages) : make_all(tl, messages);
 }
 
 selas_status tl_make_beside(const struct tl_model *tl, size_t from, size_t end, struct tl_model **beside,
@@ -255,26 +341,24 @@ double tl_sum_in_order(struct tl_model *tl,
 double tl_plane_step(const struct tl_model *tl)
 {
     const struct body *body = &tl->model.scene->body;
-    const int last = tl->cloud->dimension - 1;
-    const size_t planes = tl->cloud->whole / tl->part.plane;
-    return (body->high[last] - body->low[last]) / (double)planes;
+    const int axis = tl->part.axis;
+    return (body->high[axis] - body->low[axis]) / (double)tl->part.planes;
 }
 
-/* The plane of points that a place is nearest to. */
-static size_t plane_of(const struct tl_model *tl, const double place[3])
+size_t tl_planes_within(const struct tl_model *tl, double radius)
 {
-    const struct body *body = &tl->model.scene->body;
-    const int last = tl->cloud->dimension - 1;
-    const size_t planes = tl->cloud->whole / tl->part.plane;
-    const double part = (place[last] - body->low[last]) / (body->high[last] - body->low[last]);
-    return (size_t)fmin(fmax(floor(part * (double)planes), 0), (double)planes - 1);
+    const double planes = radius / tl_plane_step(tl);
+    return (size_t)(tl->cloud->all != NULL ? ceil(planes) : 0.5 + planes);
 }
 
 int tl_owner(const struct tl_model *tl, const double place[3])
 {
-    const size_t point = plane_of(tl, place) * tl->part.plane;
+    const struct body *body = &tl->model.scene->body;
+    const struct tl_part *part = &tl->part;
+    const double low = body->low[part->axis], high = body->high[part->axis];
+    const double plane = floor((place[part->axis] - low) / (high - low) * (double)part->planes);
     int rank = 0;
-    while (point >= tl->part.bound[rank + 1])
+    while (rank + 1 < ranks_count(part->ranks) && plane >= (double)part->dealt[rank + 1])
         rank++;
     return rank;
 }

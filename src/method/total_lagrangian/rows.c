@@ -116,6 +116,15 @@ size_t tl_rows_bytes(const struct tl_rows *rows)
 
 /* --- Who is like whom --- */
 
+/* Points of a file share rows in their layers alone, so that a part of these has the rows of the whole. */
+static bool same_layer(const struct tl_model *tl, size_t i, size_t j)
+{
+    const struct cloud *cloud = tl->cloud;
+    const struct body *body = &tl->model.scene->body;
+    return cloud->number == NULL || cloud_layer(cloud, body, cloud->position + 3 * i) ==
+                                        cloud_layer(cloud, body, cloud->position + 3 * j);
+}
+
 /* Points before i that may share its row: its last neighbours along each axis of a lattice, or the point
  * before. Those of a lattice do, but for the places of ghosts in memory, if all faces across the axis are
  * `layers` or more away from both; they come first. */
@@ -127,7 +136,7 @@ void tl_likes(const struct tl_model *tl, size_t i, size_t layers, struct tl_like
     if (grid[0] == 0 || i >= tl->cloud->points) {
         like->inside = false;
         like->point[0] = i - 1;
-        like->before = i > 0 && (i < tl->cloud->points || i > tl->cloud->points);
+        like->before = i > 0 && i != tl->cloud->points && same_layer(tl, tl_source(tl, i - 1), tl_source(tl, i));
         return;
     }
     for (size_t c = 0, stride = 1; c < (size_t)tl->cloud->dimension; stride *= grid[c++]) {

@@ -42,11 +42,11 @@ static void cut(struct tl_blocks *blocks, size_t first, size_t count, bool run)
     }
 }
 
-static bool make_room(struct tl_blocks *blocks, size_t count, struct messages *messages)
+static bool make_room(struct tl_blocks *blocks, size_t count, size_t layers, struct messages *messages)
 {
     /* at most count / GROUP runs and one stretch more between them, each with one block that is not full; twice, for
-     * points and ghosts */
-    blocks->block = array_new(2 * (count / GROUP) + count / LONGEST + 4, sizeof *blocks->block);
+     * points and ghosts; and one stretch more in each layer */
+    blocks->block = array_new(2 * (count / GROUP) + count / LONGEST + layers + 4, sizeof *blocks->block);
     if (blocks->block == NULL) fail(messages, SELAS_NO_MEMORY, "no memory for %zu points", count);
     return blocks->block != NULL;
 }
@@ -89,18 +89,29 @@ static void cut_as_whole(const struct tl_model *tl, struct tl_blocks *blocks)
     }
 }
 
+/* Blocks of points of a file are those of its layers, each of which a part has as a whole. */
+static void find_in_layers(const struct tl_model *tl, const struct tl_range *made, struct tl_blocks *blocks)
+{
+    const struct cloud *cloud = tl->cloud;
+    for (size_t l = 0; l < cloud->layers; l++)
+        if (cloud->start[l] >= cloud->first + made->from && cloud->start[l + 1] <= cloud->first + made->end)
+            find(tl, cloud->start[l] - cloud->first, cloud->start[l + 1] - cloud->first, same_stress, blocks);
+}
+
 selas_status tl_find_runs(struct tl_model *tl, struct messages *messages)
 {
     const size_t n = tl->cloud->points;
     const struct tl_part *part = &tl->part;
     struct tl_blocks *gradient = &tl->gradient_blocks, *stress = &tl->stress_blocks,
                      *force = &tl->force_blocks;
-    if (!make_room(gradient, n, messages) || !make_room(stress, n, messages) ||
-        !make_room(force, tl->sites, messages))
+    if (!make_room(gradient, n, 0, messages) || !make_room(stress, n, tl->cloud->layers, messages) ||
+        !make_room(force, tl->sites, 0, messages))
         return SELAS_NO_MEMORY;
     find(tl, part->gradient.from, part->gradient.end, same_gradient, gradient);
-    const bool runs = find(tl, part->pair.from, part->pair.end, same_stress, stress);
-    if (part->shared && !runs) cut_as_whole(tl, stress);
+    if (tl->cloud->layers > 0)
+        find_in_layers(tl, &part->pair, stress);
+    else if (!find(tl, part->pair.from, part->pair.end, same_stress, stress) && part->shared)
+        cut_as_whole(tl, stress);
     find(tl, part->transposed.from, part->transposed.end, same_transposed, force);
     find(tl, n, tl->sites, same_transposed, force);
     return SELAS_OK;

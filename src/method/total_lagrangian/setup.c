@@ -221,7 +221,7 @@ selas_status tl_fill_gradient(struct tl_making *making, struct messages *message
                 messages, SELAS_BAD_SCENE,
                 "point %zu at (%g, %g, %g) has too few neighbours for a gradient of degree %d: the body is "
                 "too thin for its spacing",
-                tl->cloud->first + i + 1, tl->cloud->position[3 * i], tl->cloud->position[3 * i + 1],
+                cloud_number(tl->cloud, i), tl->cloud->position[3 * i], tl->cloud->position[3 * i + 1],
                 tl->cloud->position[3 * i + 2], tl->options.degree);
         bool room = count < SIZE_MAX;
         for (size_t k = 0; room && k < count; k++)

@@ -55,12 +55,14 @@ static void find_reach(const struct tl_model *tl, struct reach *reach)
  * among the own points are taken from, which are within `radius` of them, and their rows. */
 static void widen_window(const struct tl_model *tl, bool *window)
 {
-    const struct tl_set *own = &tl->part.own;
-    const size_t n = tl->cloud->points;
-    const size_t more = tl->part.plane * (size_t)(0.5 + tl_probe_radius(tl) / tl_plane_step(tl));
-    size_t from = own->range[0].from, end = own->range[own->count - 1].end;
-    from -= from < more ? from : more;
-    end += n - end < more ? n - end : more;
+    const struct tl_part *part = &tl->part;
+    const size_t n = tl->cloud->points, *dealt = part->dealt + ranks_me(part->ranks);
+    const size_t more = tl_planes_within(tl, tl_probe_radius(tl));
+    const size_t low = dealt[0] < more ? 0 : dealt[0] - more;
+    const size_t high = part->planes - dealt[1] < more ? part->planes : dealt[1] + more;
+    size_t from = part->start[low], end = part->start[high];
+    from = from < tl->cloud->first ? 0 : from - tl->cloud->first;
+    end = end - tl->cloud->first < n ? end - tl->cloud->first : n;
     for (size_t i = from; i < end; i++) {
         window[i] = true;
         mark_row(tl, &tl->gradient, i, window);
@@ -227,7 +229,8 @@ void tl_part_free(struct tl_part *part)
         if (part->halo != NULL) tl_set_free(&part->halo[r].get);
     }
     tl_set_free(&part->own);
-    void *const arrays[] = {part->bound, part->owned, part->window, part->halo, part->piece, part->packed};
+    void *const arrays[] = {part->start,  part->dealt, part->bound, part->owned,
+                            part->window, part->halo,  part->piece, part->packed};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
         array_free(arrays[k]);
 }

@@ -252,10 +252,13 @@ static void fill_model(struct tl_model *tl)
     model->patch = tl->options.form == NULL && !tl->options.central && soft ? PATCH_RINGS : PATCH_WHOLE;
     model->waves = tl_waves(tl);
     model->points = tl->cloud->whole;
-    if (tl->part.shared)
+    if (tl->cloud->all != NULL)
+        model->position = tl->cloud->all->position;
+    else if (tl->part.shared)
         model->place = cloud_place;
     else
         model->position = tl->deck_position;
+    model->number = tl->cloud->number;
     memcpy(model->grid, tl->cloud->grid, sizeof model->grid);
     model->unknowns = d * n;
     model->state_size = 2 * d * n;
@@ -271,6 +274,8 @@ static void fill_model(struct tl_model *tl)
                    tl->sites * (3 + (viscous ? 4 : 3) * d + d * d) * sizeof(double) +
                    n * (9 + d * d + 2 * d) * sizeof(double) + n * sizeof(struct elastic) +
                    tl->ghosts * sizeof(struct tl_ghost);
+    if (tl->cloud->number != NULL) model->bytes += tl->cloud->whole * sizeof *tl->cloud->number;
+    if (tl->cloud->all != NULL) model->bytes += 3 * tl->cloud->whole * sizeof *tl->cloud->all->position;
 }
 
 /* The arrays that the loops read and write, in one piece of memory: a processor takes a load for one of what

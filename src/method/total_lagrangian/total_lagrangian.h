@@ -139,7 +139,9 @@ struct tl_part {
     struct ranks *ranks;           /* NULL: alone */
     struct tl_set own;             /* own points, in pieces for threads */
     size_t plane;                  /* points of a plane of a lattice over its last axis, else 1 */
-    size_t *bound;                 /* [ranks + 1]: own points of each rank, where memory is shared */
+    int axis;                      /* over which planes or, of points of a file, layers stand, ... */
+    size_t planes, *start;         /* ... and the first point of each, [planes + 1], where memory is shared, ... */
+    size_t *dealt, *bound;         /* ... and the first plane and point of each rank, [ranks + 1] */
     struct tl_set *owned, *window; /* [ranks]: own points and those of the window of each rank */
     struct tl_halo *halo;          /* [ranks] */
     struct ranks_piece *piece;     /* [ranks], of an exchange */
@@ -215,8 +217,9 @@ double tl_sum_in_order(struct tl_model *tl,
                        const void *context);
 /* Own points for such sums: all, where memory is not shared. */
 struct tl_range tl_summed(const struct tl_model *tl);
-/* Spacing of a lattice over the last axis. */
-double tl_plane_step(const struct tl_model *tl);
+double tl_plane_step(const struct tl_model *tl); /* from plane to plane */
+/* Planes, each side of one, with points within a radius of a place in it. */
+size_t tl_planes_within(const struct tl_model *tl, double radius);
 /* The rank that a place of the body's frame belongs to, where memory is shared. */
 int tl_owner(const struct tl_model *tl, const double place[3]);
 /* It is this one, or memory is not shared. */

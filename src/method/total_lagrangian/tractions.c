@@ -61,10 +61,11 @@ static void add_area(struct tl_model *tl, const void *context, double *area)
 /* Fails if no element of the surface lies on a face. */
 selas_status tl_need_surface(const struct tl_model *tl, enum face face, struct messages *messages)
 {
-    for (size_t e = 0; e < tl->cloud->elements; e++)
-        if (tl->cloud->element[e].face == (int)face) return SELAS_OK;
-    if (tl->part.shared) return SELAS_OK; /* of a box, on another rank */
-    if (tl->cloud->elements > 0)
+    const struct cloud *cloud = tl->cloud;
+    double area;
+    if (cloud_on_face(cloud, (int)face, &area) > 0) return SELAS_OK;
+    if (tl->part.shared && cloud->all == NULL) return SELAS_OK; /* of a box, on another rank */
+    if ((cloud->all != NULL ? cloud->all->elements : cloud->elements) > 0)
         return fail(messages, SELAS_BAD_SCENE,
                     "no point has its normal and area on face '%s' of the body's box low .. high",
                     face_name(face));
@@ -72,7 +73,7 @@ selas_status tl_need_surface(const struct tl_model *tl, enum face face, struct m
         messages, SELAS_BAD_SCENE,
         "face '%s' is not known: the points come without areas and fill %.3g of the box low .. high (within "
         ".02 of 1 its faces would be theirs); give normal and area with the points at the surface",
-        face_name(face), cloud_filling(tl->cloud, &tl->model.scene->body));
+        face_name(face), cloud_filling(cloud, &tl->model.scene->body));
 }
 
 void tl_uniform_stress(struct tl_model *tl, const double direction[3], enum face face)
