@@ -54,6 +54,26 @@ memory() { # memory KB WORDS...: one process has no memory for what 4 ranks run
 }
 memory 400000 regress/parallel/tall-sph.nml body%high=2,1.5,720 "boundary(3)%kind=symmetry" "boundary(3)%layer=" scene%end_time=.5 stepping%time_step=.1 profile%times=.4 "snapshot(1)%every=.4" "snapshot(2)%times=.4"
 same "2 4" "points of a file" regress/cases/cloud/deck.nml
+drawn() { # drawn N WORDS...: points of a file, into $work/drawn.txt
+    size=$1 && shift
+    LC_ALL=C awk -v n="$size" "$@" -f regress/parallel/points.awk >"$work/drawn.txt"
+}
+flat="regress/parallel/file-plane.nml body%file=$work/drawn.txt" bar="regress/parallel/file-sph.nml body%file=$work/drawn.txt"
+drawn "10 80" -v jitter=.15
+same "2 7" "points of a file in layers" $flat
+as_planned "and with points of a file" ranks
+drawn "10 80" -v normals=1
+same 4 "points of a lattice in a file, with normals" $flat "boundary(2)%kind=symmetry" "boundary(2)%layer="
+drawn "10 80" -v graded=1
+same 3 "graded points of a file, linear gradients, viscosity" $flat method%gradient=linear method%viscosity_alpha=.5
+drawn "52 7 6" -v jitter=.1
+same 3 "points of a file along the first axis" $bar
+same 2 "damped points of a file along the first axis" $bar method%law=linear material%q_p=40 material%q_s=25
+drawn "10 80" -v gap=1 -v normals=1
+same 3 "two bodies of points of a lattice in a file" $flat profile%from=1,9
+drawn "6 6 600" -v jitter=.1
+one_line "points of a file outside their box" "drawn.txt:2: point 2 lies outside the box" 3 $bar
+memory 400000 $bar body%high=1.5,1.5,150 method%smoothing_length=2 "boundary(1)%face=z+" "boundary(2)%face=y-" "load(1)%face=z-" "load(2)%centre=.6,.7,70" "receiver(1)%position=.3,1.3,.1" "receiver(2)%position=.6,1,80" "receiver(3)%position=.8,.6,120" profile%from=.7,.7,1 profile%to=.7,.7,149 scene%end_time=.15 stepping%time_step=.05 profile%times=.1 "snapshot(1)%every=.1" "snapshot(2)%times=.1" "snapshot(2)%region=0,0,20,1,1,100"
 same 3 "points about a hole in a plane" input/plate.nml body%spacing=.05 scene%end_time=.001 snapshot%times=.001 "profile(1)%times=.001" "profile(2)%times=.001"
 same 2 "points of a beam in its mode, four stages of Runge and Kutta" input/beam.nml scene%end_time=.001 stepping%scheme=rk4
 same "2 7" "particles that move" $moving
