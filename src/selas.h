@@ -218,7 +218,8 @@ SELAS_API selas_status selas_load_response(selas_simulation *simulation, const c
 /* --- Whole fields --- */
 
 /* The body's own points: mirror images included, points of absorbing layers left out; position[3 * i + c],
- * deck coordinates. The array belongs to the simulation and stays until it is closed or changed. */
+ * deck coordinates; total-Lagrangian points of a file in layers over its longest axis, others of a file in its order.
+ * The array belongs to the simulation and stays until it is closed or changed. */
 SELAS_API selas_status selas_points(selas_simulation *simulation, size_t *count, const double **position);
 /* A field at all points at the step reached: value[components * i + c], deck coordinates. The array belongs
  * to the simulation and stays as it is until the next call of this function. */

@@ -154,7 +154,7 @@ if command -v python3 >/dev/null; then
     version=$("$selas" --version | cut -d' ' -f2)
     reworded "version $version" "version 9.9.9" && refused "of another version" "written by version 9.9.9, this is $version"
     reworded "little-endian" "big-endian" && refused "of another byte order" "written by a big-endian machine"
-    reworded "format 6" "format 7" && refused "of another format" "format 7"
+    reworded "format 7" "format 8" && refused "of another format" "format 8"
     reworded "commit " "commit 0" && cp -a cut_paper other && mv other/unfinished/bad.h5 other/unfinished/checkpoint.h5
     check "of another commit: told, and goes on" sh -c "'$selas' -q restart other/unfinished/checkpoint.h5 2>err && grep -q 'was written by commit 0' err"
     check "and same bits" same whole_paper other

@@ -333,13 +333,86 @@ static void points_come_from_files(void **state)
     unlink(path);
 }
 
+/* 9 x 4 points in no order, .1 apart but for one, with normals at two ends; x is the longest axis. */
+static void write_layers(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    for (int k = 0; k < 36; k++) {
+        const int at = k * 7 % 36, i = at % 9, j = at / 9;
+        fprintf(file, "%.3f %.3f .01 %d 0 %g\n", .05 + .1 * i + (at == 13 ? .04 : 0), .05 + .1 * j,
+                i == 0   ? -1
+                : i == 8 ? 1
+                         : 0,
+                i % 8 == 0 ? .1 : 0);
+    }
+    fclose(file);
+}
+
+static struct cloud *read_layers(struct box_scene *box, char *path)
+{
+    struct messages messages = {0};
+    make_box(box, 2, 1, .1);
+    box->scene.body.shape = BODY_POINTS;
+    box->scene.body.high[0] = .9;
+    box->scene.body.high[1] = .4;
+    box->scene.body.file = path;
+    struct cloud *cloud = make(&box->scene);
+    assert_int_equal(cloud_sort(cloud, &box->scene.body, &messages), SELAS_OK);
+    return cloud;
+}
+
+/* Layers hold their points in the order of the file; a part is a piece of the whole, and knows what that has. */
+static void points_of_files_stand_in_layers(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/selas-points-XXXXXX";
+    const int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    write_layers(path);
+    struct box_scene box;
+    struct messages messages = {0};
+    struct cloud *whole = read_layers(&box, path), *part = read_layers(&box, path);
+    assert_int_equal(whole->axis, 0);
+    assert_int_equal(whole->layers, 9);
+    for (size_t l = 0; l < 9; l++) {
+        assert_int_equal(whole->start[l], 4 * l);
+        for (size_t i = 4 * l; i < 4 * l + 4; i++) {
+            const size_t at = 7 * (cloud_number(whole, i) - 1) % 36;
+            assert_int_equal(at % 9, l);
+            assert_near(whole->position[3 * i + 1], .05 + .1 * (double)(at / 9), 1e-12);
+            assert_true(i % 4 == 0 || cloud_number(whole, i) > cloud_number(whole, i - 1));
+        }
+    }
+    assert_int_equal(cloud_cut(&part, &box.scene.body, 1, 6, &messages), SELAS_OK);
+    assert_int_equal(part->first, 4);
+    assert_int_equal(part->points, 20);
+    assert_int_equal(part->whole, 36);
+    assert_memory_equal(part->position, whole->position + 12, 60 * sizeof(double));
+    assert_memory_equal(part->all->position, whole->position, 108 * sizeof(double));
+    assert_int_equal(part->elements, 0);
+    for (int face = 0; face < FACES; face++) {
+        double area = 0, of_part = 0;
+        assert_int_equal(cloud_on_face(part, face, &of_part), cloud_on_face(whole, face, &area));
+        assert_near(of_part, area, 0);
+    }
+    assert_near(cloud_volume(part), cloud_volume(whole), 0);
+    assert_near(cloud_mean_power(part, 2), cloud_mean_power(whole, 2), 0);
+    assert_int_equal(cloud_number(part, 3), cloud_number(whole, 7));
+    cloud_free(&part);
+    cloud_free(&whole);
+    unlink(path);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(boxes_of_all_dimensions), cmocka_unit_test(cells_are_voronoi_cells),
-        cmocka_unit_test(plates_have_their_area),  cmocka_unit_test(conformal_points_conform),
-        cmocka_unit_test(jitter_follows_the_seed), cmocka_unit_test(bad_plates_are_refused),
-        cmocka_unit_test(points_come_from_files),  cmocka_unit_test(parts_are_those_of_the_whole),
+        cmocka_unit_test(boxes_of_all_dimensions),         cmocka_unit_test(cells_are_voronoi_cells),
+        cmocka_unit_test(plates_have_their_area),          cmocka_unit_test(conformal_points_conform),
+        cmocka_unit_test(jitter_follows_the_seed),         cmocka_unit_test(bad_plates_are_refused),
+        cmocka_unit_test(points_come_from_files),          cmocka_unit_test(parts_are_those_of_the_whole),
+        cmocka_unit_test(points_of_files_stand_in_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

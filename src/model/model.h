@@ -245,7 +245,7 @@ struct model {
     size_t points;             /* points of the body that users see */
     const double *position;    /* [3 * points], deck coordinates; NULL: a lattice that fills the body, not
                                   stored. Ask model_position(). */
-    const uint32_t *number; /* [points] places of points of a file in it, from 0 on; NULL: as they stand */
+    const uint32_t *number;    /* [points] places of points of a file in it, from 0 on; NULL: as they stand */
     /* Where a point is that is not stored, in deck coordinates; NULL: at its place of that lattice. */
     void (*place)(const struct scene *scene, size_t point, double position[3]);
     size_t grid[3];        /* points per axis if they form a lattice (x fastest), else 0, 0, 0 */

@@ -21,9 +21,10 @@ struct face_element {
 
 /* What a part of points of a file knows of the whole body. */
 struct cloud_all {
-    double volume, spacing, square;           /* sum; largest volume^(1 / dimension); cloud_mean_power() of order 2 */
-    size_t elements, of_face[FACES];          /* of the surface, and those on each face */
-    double area[FACES], *position; /* on each face; of all points, deck coordinates, [3 * whole] */
+    double volume, square;           /* of all points; cloud_mean_power() of order 2 */
+    size_t elements, of_face[FACES]; /* of the surface, and those on each face */
+    double area[FACES];              /* on each face */
+    double *position;                /* [3 * whole] deck coordinates */
 };
 
 /* Of a body whose points stand in planes or layers over an axis, a part: the points first .. first + points - 1 in
@@ -34,13 +35,13 @@ struct cloud {
     size_t first, whole; /* 0 and `points` where it is no part */
     int axis;            /* the last one; of points of a file in layers the longest */
     double low, high;
-    size_t layers, *start;  /* points of a file in layers: the first of each, [layers + 1]; else 0, NULL */
-    uint32_t *number;       /* [whole] of the same: their places in the file, from 0 on; else NULL */
-    struct cloud_all *all;  /* of a part of them; else NULL */
-    double *position; /* [3 * points] */
-    double *volume;   /* [points] */
-    double spacing;   /* nominal */
-    size_t grid[3];   /* points per axis of the body where they form a lattice (x fastest), else 0 */
+    size_t layers, *start; /* points of a file in layers: the first of each, [layers + 1]; else 0, NULL */
+    uint32_t *number;      /* [whole] of the same: their places in the file, from 0 on; else NULL */
+    struct cloud_all *all; /* of a part of them; else NULL */
+    double *position;      /* [3 * points] */
+    double *volume;        /* [points] */
+    double spacing;        /* nominal */
+    size_t grid[3];        /* points per axis of the body where they form a lattice (x fastest), else 0 */
     size_t elements;
     struct face_element *element;
 };

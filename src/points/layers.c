@@ -32,7 +32,7 @@ static void lay(struct cloud *cloud, const struct body *body)
     cloud->layers = (size_t)fmax(1, fmin((double)cloud->points, round(longest / body->spacing)));
 }
 
-/* Things by their layers, in each in their order: of[count], the layer of each, becomes its new number. start[layers + 1]
+/* Things by their layers, in each in their order: of[count], the layer of each, becomes its number. start[layers + 1]
  * gets the first of each layer. */
 static void sort(const struct cloud *cloud, size_t count, size_t *start, uint32_t *of)
 {
@@ -135,8 +135,6 @@ static bool look_at_all(struct cloud *cloud, const struct body *body, struct clo
     all->elements = cloud->elements;
     for (int face = 0; face < FACES; face++)
         all->of_face[face] = cloud_on_face(cloud, face, &all->area[face]);
-    for (size_t i = 0; i < cloud->points; i++)
-        all->spacing = fmax(all->spacing, pow(cloud->volume[i], 1.0 / cloud->dimension));
     all->position = cloud->position;
     cloud->position = NULL;
     for (size_t i = 0; i < cloud->points; i++)

@@ -26,7 +26,7 @@
 #include <unistd.h>
 
 static const char first_line[] = "selas checkpoint, format ";
-enum { FORMAT = 6, BLOCK = 1 << 16 };
+enum { FORMAT = 7, BLOCK = 1 << 16 };
 
 static const char *byte_order(void)
 {

@@ -1,5 +1,5 @@
 /* Which points of the body a rank makes (doc/developers/ranks.md). Those of a lattice are made in planes over the last
- * axis, `step` apart: the own ones o .. o' - 1 of n, and as many about them as the rows need that forces on the own
+ * axis, `step` apart, those of a file are cut out in layers (points/layers.c): the own ones o .. o' - 1 of n, and as many about them as the rows need that forces on the own
  * points take. A row reaches over r planes, one of pairs over p, and rows of lattice points that are L or more away
  * from both ends of the body are alike,
  *
@@ -10,8 +10,8 @@
  * lengths. With f = min(o, n - L - 1) on a lattice, f = o else, are made
  *
  *   transposed rows of f .. o' - 1,   rows of gradients of f - r - p .. o' - 1 + r + p,
- *   rows of pairs of f - r - b .. o' - 1 + r + b,   b = 1 + floor(64 / points of a plane),                 (R6)
- *   points of f - e .. o' - 1 + e,   e = 2 r + max(p, b) + 2 + cloud_margin(),                             (R7)
+ *   rows of pairs of f - r - b .. o' - 1 + r + b,   b planes have more than 64 points,                     (R6)
+ *   points of f - e .. o' - 1 + e,   e = 2 r + max(p, b) + 2 + cloud_margin() of a lattice,                (R7)
  *
  * S and G of (R3) and, for pairs, one block of points beyond; with all neighbours of points with rows, and a plane
  * below the first one with rows. In one process nearly every lattice point has the row of the point below; a row of its
@@ -238,7 +238,8 @@ static bool pays(const struct tl_model *tl, const size_t grid[3])
     for (size_t c = 0; c < last; c++)
         longest = longest && grid[c] <= grid[last];
     const struct reaches by = reaches_of(tl, grid, even_spacing(scene, grid));
-    return longest || grid[last] / (size_t)ranks_count(tl->part.ranks) >= 2 * (size_t)beside(scene, grid, &by);
+    return longest ||
+           grid[last] / (size_t)ranks_count(tl->part.ranks) >= 2 * (size_t)beside(scene, grid, &by);
 }
 
 /* Points of a file: all are read by each rank, which keeps its part where that has fewer layers than the body. */

@@ -136,7 +136,8 @@ void tl_likes(const struct tl_model *tl, size_t i, size_t layers, struct tl_like
     if (grid[0] == 0 || i >= tl->cloud->points) {
         like->inside = false;
         like->point[0] = i - 1;
-        like->before = i > 0 && i != tl->cloud->points && same_layer(tl, tl_source(tl, i - 1), tl_source(tl, i));
+        like->before =
+            i > 0 && i != tl->cloud->points && same_layer(tl, tl_source(tl, i - 1), tl_source(tl, i));
         return;
     }
     for (size_t c = 0, stride = 1; c < (size_t)tl->cloud->dimension; stride *= grid[c++]) {

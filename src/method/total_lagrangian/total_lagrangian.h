@@ -136,12 +136,12 @@ struct tl_halo {
 /* The points of a rank (divide.c, share.c); alone, all. Where memory is shared (planes.c) the cloud is a part of the
  * body, and numbers of points are those of the part, but for those of `bound`, `owned` and `window`. */
 struct tl_part {
-    struct ranks *ranks;           /* NULL: alone */
-    struct tl_set own;             /* own points, in pieces for threads */
-    size_t plane;                  /* points of a plane of a lattice over its last axis, else 1 */
-    int axis;                      /* over which planes or, of points of a file, layers stand, ... */
-    size_t planes, *start;         /* ... and the first point of each, [planes + 1], where memory is shared, ... */
-    size_t *dealt, *bound;         /* ... and the first plane and point of each rank, [ranks + 1] */
+    struct ranks *ranks;   /* NULL: alone */
+    struct tl_set own;     /* own points, in pieces for threads */
+    size_t plane;          /* points of a plane of a lattice over its last axis, else 1 */
+    int axis;              /* over which planes or, of points of a file, layers stand, ... */
+    size_t planes, *start; /* ... and the first point of each, [planes + 1], where memory is shared, ... */
+    size_t *dealt, *bound; /* ... and the first plane and point of each rank, [ranks + 1] */
     struct tl_set *owned, *window; /* [ranks]: own points and those of the window of each rank */
     struct tl_halo *halo;          /* [ranks] */
     struct ranks_piece *piece;     /* [ranks], of an exchange */
