@@ -95,7 +95,8 @@ selas_status cloud_add_element(struct cloud *cloud, const struct face_element *e
 selas_status cloud_surface(struct cloud *cloud, const struct body *body, struct messages *messages);
 /* points/rings.c: plates with a hole. */
 selas_status cloud_plate(const struct body *body, struct cloud **cloud, struct messages *messages);
-/* points/points_file.c: text or HDF5. */
+/* points/points_file.c: text or HDF5. Bytes a point that it takes at most. */
+enum { CLOUD_READING = 104 };
 selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct messages *messages);
 /* points/points_check.c: SELAS_BAD_SCENE if two points are closer than a millionth of the spacing; path, line
  * [points]: the file and where they stand in it, or NULL. */

@@ -256,6 +256,8 @@ selas_status cloud_read(const struct scene *scene, struct cloud **cloud, struct 
     if (status == SELAS_OK) {
         (*cloud)->spacing = scene->body.spacing;
         status = take(scene, &table, *cloud, messages);
+        free(table.row);
+        table.row = NULL;
         if (status == SELAS_OK)
             status = points_check_apart(table.rows, (*cloud)->position, scene->body.spacing, path, table.line,
                                         messages);

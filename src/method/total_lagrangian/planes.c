@@ -1,7 +1,7 @@
 /* Which points of the body a rank makes (doc/developers/ranks.md). Those of a lattice are made in planes over the last
- * axis, `step` apart, those of a file are cut out in layers (points/layers.c): the own ones o .. o' - 1 of n, and as many about them as the rows need that forces on the own
- * points take. A row reaches over r planes, one of pairs over p, and rows of lattice points that are L or more away
- * from both ends of the body are alike,
+ * axis, `step` apart, those of a file are cut out of all in layers (points/layers.c): the own planes or layers
+ * o .. o' - 1 of n, and as many about them as the rows need that forces on the own points take. A row reaches over r
+ * planes, one of pairs over p, and rows of lattice points that are L or more away from both ends of the body are alike,
  *
  *   r = ceil((1.5 kernel radius + 2 jitter) / step),   p = ceil((1.6 spacing + 2 jitter) / step),
  *   L = 2 (1 + ceil(1.5 kernel radius / least step of the axes)),                                         (R5)

@@ -275,7 +275,9 @@ static void fill_model(struct tl_model *tl)
                    n * (9 + d * d + 2 * d) * sizeof(double) + n * sizeof(struct elastic) +
                    tl->ghosts * sizeof(struct tl_ghost);
     if (tl->cloud->number != NULL) model->bytes += tl->cloud->whole * sizeof *tl->cloud->number;
-    if (tl->cloud->all != NULL) model->bytes += 3 * tl->cloud->whole * sizeof *tl->cloud->all->position;
+    if (tl->cloud->all == NULL) return;
+    model->bytes += 3 * tl->cloud->whole * sizeof *tl->cloud->all->position;
+    model->setup_bytes = tl->cloud->whole * CLOUD_READING;
 }
 
 /* The arrays that the loops read and write, in one piece of memory: a processor takes a load for one of what
