@@ -79,7 +79,7 @@ static bool sort_elements(struct cloud *cloud, const struct body *body)
     const size_t count = cloud->elements;
     size_t *start = array_new(cloud->layers + 1, sizeof *start);
     uint32_t *to = array_new(count, sizeof *to);
-    struct face_element *sorted = malloc((count / MORE + 1) * MORE * sizeof *sorted);
+    struct face_element *sorted = calloc((count / MORE + 1) * MORE, sizeof *sorted);
     const bool room = start != NULL && to != NULL && sorted != NULL;
     for (size_t e = 0; room && e < count; e++)
         to[e] = (uint32_t)cloud_layer(cloud, body, cloud->element[e].position);

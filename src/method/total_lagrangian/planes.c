@@ -104,7 +104,7 @@ static struct tl_range points_in(const struct tl_part *part, ptrdiff_t first, st
 static double even_spacing(const struct scene *scene, const size_t grid[3])
 {
     double volume = 1;
-    for (int c = 0; c < scene->dimension; c++)
+    for (int c = 0; c < scene->dimension && c < 3; c++)
         volume *= (scene->body.high[c] - scene->body.low[c]) / (double)grid[c];
     return pow(volume, 1.0 / scene->dimension);
 }
