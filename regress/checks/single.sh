@@ -50,6 +50,9 @@ slow='load%history=gaussian load%frequency= load%width=2 load%delay=10'
 for scene in pass single; do held $scene 24 $slow || failures=$((failures + 1)); done
 # shellcheck disable=SC2086
 held sweep 24 $slow || failures=$((failures + 1))
+# a moment tensor beside an interface that slopes, a little below the surface: the lattice about it is thinner than the body
+held sweep 4 'load%face=' 'load%shape=' 'load%size=' 'load%direction=' load%kind=moment-tensor load%moment=1,0,-1,.3,.2,.5 \
+    load%centre=1.75,1.75 load%depth=.5 'layer(2)%top=.2' || failures=$((failures + 1))
 # a moment tensor: what is rounded beside it comes to receivers that move little
 if sh "$study" "$folder" 63 63 >drawn.rows; then
     echo "ok - a moment tensor: $(tail -1 drawn.rows)"

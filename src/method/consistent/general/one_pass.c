@@ -210,6 +210,7 @@ static const char *obstacle(const struct consistent *c)
 
 selas_status general_steps_create(struct consistent *c, struct messages *messages)
 {
+    if (c->model.scene->body.line != NULL) return SELAS_OK; /* about a source (window.h): it makes no steps */
     const char *missing = obstacle(c);
     if (missing != NULL && c->options.single)
         return fail(messages, SELAS_UNSUPPORTED,
