@@ -143,6 +143,30 @@ cat >middle.nml <<'END'
 END
 run thin middle.nml method%operator=general && run exact middle.nml method%operator=layered body%spacing=.05
 differ "a moment tensor in the middle of a layer 1.1 spacings thick" 0 .05 thin exact
+# a snapshot there, of rocks of one shear modulus, about whose middle nothing has a direction
+cat >wet.nml <<'END'
+&scene dimension = 2, end_time = 3 /
+&material name = 'rock', density = 1, p_speed = 1.8, s_speed = 1 /
+&material name = 'wet', density = 1, p_speed = 4, s_speed = 1 /
+&body material = 'rock', low = -1, 0, high = 1, 2, spacing = .1 /
+&boundary face = 'x-', 'x+', 'y+', kind = 'roller' /
+&layer material = 'rock', top = 0 /
+&layer material = 'wet', top = .9 /
+&layer material = 'rock', top = 1.1 /
+&load face = 'y-', shape = 'square', centre = -.2, 0, size = .5, direction = .3, 1, history = 'gaussian', width = .3, delay = 1.2 /
+&profile name = 'p', from = -.8, 1, to = .8, 1, points = 17, fields = 'stress', times = 2.5 /
+&snapshot times = 2.5, fields = 'stress', region = -.8, 1, .8, 1 /
+&output plots = F /
+END
+run shown wet.nml method%operator=general && run exact wet.nml method%operator=layered body%spacing=.05
+if { awk '!/#/ && NF == 10' exact/p.dat && h5dump -y -w 0 -m %.9g -d /snapshots/0000/stress shown/run.h5 | sed -n '/DATA {/,/}/s/[^0-9.e+-]/ /gp'; } |
+    awk 'NF == 10 { for (i = 5; i <= 10; i++) p[n++] = $i; next }
+        { for (i = 1; i <= NF; i++) { d += ($i - p[m])^2; s += p[m++]^2 } } END { printf "# %.2e\n", (s > 0 ? sqrt(d / s) : -1); exit !(n == 102 && m == 102 && d < .03^2 * s) }'; then
+    echo "ok - a snapshot in the middle of a layer two spacings thick, of one shear modulus"
+else
+    echo "not ok - a snapshot in the middle of a layer two spacings thick, of one shear modulus"
+    failures=$((failures + 1))
+fi
 
 # --- A moment tensor beside an interface, half a spacing from a symmetry plane and a little more ---
 cat >plane.nml <<'END'

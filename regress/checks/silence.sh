@@ -1104,6 +1104,11 @@ cat >standing.nml <<'END'
 &profile name = 'p', from = 0.2, 1, to = 0.8, 1, points = 9, times = 1, fields = 'stress' /
 END
 told "stress across a strong contrast" "'p' has stress.*across rocks of 6.17 times.*err by up to about 0.14 within" check jump.nml 'material(2)%s_speed=.45'
+sed "s/dimension = 2/dimension = 3/; s/-4, 0, high = 4, 4/-1, -1, 0, high = 1, 1, 2/; s/top = 1, dip = 10/top = 1, dip = 30, strike = 20/
+    s/'y-'/'z-'/; s/centre = 0, 0, size = 1, direction = 0, 1/centre = 0, 0, 0, size = 1, 1, direction = 0, 0, 1/
+    s/= 1, 0 /= 1, 0, 0 /; s/from = 0, 0.5, to = 0, 1.5/from = 0, 0, 0.5, to = 0, 0, 1.5/" jump.nml >space.nml
+told "stress beside an interface aslant in space" "'p' has stress.*across rocks of 6.17 times.*err by up to about 0.[2-5][0-9]* within" check space.nml \
+    'material(2)%s_speed=.45'
 told "stress beside a wall near a symmetry plane" "'p' has stress.*$smooth" check standing.nml
 untold "beside one that is far from it" check standing.nml block%centre=2.4,2 profile%from=1.8,1 profile%to=2.1,1 load%centre=3.4,2
 untold "velocity there" check jump.nml profile%fields=velocity
@@ -1140,6 +1145,10 @@ rough .05
 told "stones on the ground that the splines leave out" "leave out up to 0.0[0-9]* of the heights, 0.0[0-9]* of.*up to about 0.[0-9]*; a finer" check rough.nml
 rough .01
 untold "small ones" check rough.nml
+sed "s/^&topography.*/\&material name = 'hard', density = 1.2, p_speed = 4.2, s_speed = 2.4 \/ \&layer material = 'rock', top = 0 \/ \&layer material = 'hard', top = .6, file = 'rough.txt' \//" rough.nml >under.nml
+untold "small stones on an interface" check under.nml
+rough .2
+told "large ones" "the upper face of &layer 2, of pieces of two spacings, leave out up to 0.1[0-9]* of.*up to about 0.[0-9]*; a finer" check under.nml
 rocks="across rocks of [.0-9]* times"
 untold "energy all over the body" check energy.nml
 told "that of a softer soil" "&snapshot 1 has stress.*$rocks.*err by up to about 0.23 within" check energy.nml 'material(2)%s_speed=.45'

@@ -70,24 +70,52 @@ static bool mirror_near(const struct scene *scene, const double centre[3], doubl
            (boundary_mirrors(&scene->boundary[2 * axis + 1]) && scene->body.high[axis] - centre[axis] < near);
 }
 
-/* Are strains read as the moment tensors of (G25) act there: across one surface about the place, in space one along
- * the lattice (general/kink.c)? */
-static bool read_across(const struct scene *scene, const double position[3])
+/* Where log M rises to about a place, from its first moment in a ball of WIDE spacings; false: nowhere. */
+static bool rises(const struct scene *scene, const double centre[3], double spacing, double normal[3])
+{
+    static const double slight = 1e-9;
+    double sum[3] = {0, 0, 0};
+    for (int k = -FAR; k <= FAR; k++)
+        for (int j = -FAR; j <= FAR; j++)
+            for (int i = -FAR; i <= FAR; i++) {
+                const double step[3] = {i, j, k};
+                double place[3];
+                if (i * i + j * j + k * k > FAR * FAR) continue;
+                for (int axis = 0; axis < 3; axis++)
+                    place[axis] = centre[axis] + step[axis] * spacing / PARTS;
+                const struct rock rock = ground_at(scene, place);
+                for (int axis = 0; axis < 3; axis++)
+                    sum[axis] += step[axis] * log(rock.lambda + 2 * rock.mu);
+            }
+    const double length = hypot(hypot(sum[0], sum[1]), sum[2]);
+    for (int axis = 0; axis < 3; axis++)
+        normal[axis] = length > slight ? sum[axis] / length : 0;
+    return length > slight;
+}
+
+/* Are strains read as the moment tensors of (G25) act there: across one surface about the place (general/kink.c)? */
+enum reading { SMOOTH, ACROSS, ASLANT }; /* in space: not along the lattice, without (G29) */
+static enum reading read_across(const struct scene *scene, const double position[3])
 {
     enum { DIRECTIONS = 90 };
     const double spacing = spacing_at(scene, position);
-    double centre[3] = {0, 0, 0};
+    double centre[3] = {0, 0, 0}, rise[3];
     ground_from_deck(&scene->body, position, centre);
     const bool plane = scene->dimension == 2;
-    if (!plane && scene->body.topography != NULL) return false;
-    for (int n = 0; n < (plane ? DIRECTIONS : 3); n++) {
+    if (!plane && scene->body.topography != NULL) return SMOOTH;
+    for (int n = 0; n < (plane ? DIRECTIONS : 4); n++) {
         const double angle = n * M_PI / DIRECTIONS;
-        const double normal[3] = {plane ? cos(angle) : n == 0, plane ? sin(angle) : n == 1, !plane && n == 2};
-        const int axis = plane ? fabs(normal[1]) >= fabs(normal[0]) : n;
+        double normal[3] = {plane ? cos(angle) : n == 0, plane ? sin(angle) : n == 1, !plane && n == 2};
+        const bool aslant = !plane && n == 3;
+        if (aslant && !rises(scene, centre, spacing, rise)) break;
+        if (aslant) memcpy(normal, rise, sizeof normal);
+        int axis = 0;
+        for (int other = 1; other < scene->dimension; other++)
+            if (fabs(normal[other]) >= fabs(normal[axis])) axis = other;
         if (varies_along(scene, centre, spacing, normal) && !mirror_near(scene, centre, spacing, axis))
-            return true;
+            return aslant ? ASLANT : ACROSS;
     }
-    return false;
+    return SMOOTH;
 }
 
 /* How many times the shear modulus differs from that of a place within a spacing along the axes, at most. */
@@ -106,18 +134,23 @@ static double jump_about(const struct scene *scene, const double centre[3], doub
     return most;
 }
 
-/* How many times it does where a profile reads strains across jumps; INFINITY: it has smooth ones at some of them. */
-static double jump_of(const struct scene *scene, const struct profile *profile, bool reads)
+/* How many times it does where a profile reads strains across jumps, and what these err by in parts of 1/p^2; INFINITY:
+ * it has smooth ones at some of them. In the plane they erred by at most 1.24 (r - 1) / p^2 (regress/studies/blocks
+ * BUILD stresses), aslant in space by 2.9 (space). */
+static double jump_of(const struct scene *scene, const struct profile *profile, bool reads, double *law)
 {
+    static const double of_one = 1.3, of_aslant = 3.3;
     double most = 1;
     for (size_t i = 0; i < profile->points && by_law(profile->fields); i++) {
-        double position[3];
+        double position[3], centre[3] = {0, 0, 0};
         profile_position(profile, i, position);
         if (!at_jump(scene, position)) continue;
-        if (!reads || !read_across(scene, position)) return INFINITY;
-        double centre[3] = {0, 0, 0};
+        const enum reading reading = reads ? read_across(scene, position) : SMOOTH;
+        if (reading == SMOOTH) return INFINITY;
         ground_from_deck(&scene->body, position, centre);
-        most = fmax(most, jump_about(scene, centre, spacing_at(scene, position)));
+        const double times = jump_about(scene, centre, spacing_at(scene, position));
+        most = fmax(most, times);
+        *law = fmax(*law, (reading == ASLANT ? of_aslant : of_one) * (times - 1));
     }
     return most;
 }
@@ -178,13 +211,8 @@ static bool told_of_contrast(struct adviser *adviser, const char *what, double l
     return true;
 }
 
-/* In the plane profiles err by at most 1.24 (r - 1) / p^2 (regress/studies/blocks BUILD stresses), snapshots by 6.1
- * ln(r) / p^2, at corners of blocks by 10.4 (snapshots). */
-static double law_of_profile(double times)
-{
-    return 1.3 * (times - 1);
-}
-
+/* In the plane snapshots err by at most 6.1 ln(r) / p^2, at corners of blocks by 10.4 (regress/studies/blocks BUILD
+ * snapshots). */
 static double law_of_snapshot(const struct scene *scene, double times)
 {
     return (scene->body.blocks > 0 || scene->body.model != NULL ? 11 : 6.2) * log(fmax(times, 1));
@@ -283,10 +311,11 @@ void look_at_fields(struct adviser *adviser)
     char what[NAME_SIZE + 16] = "", name[sizeof what];
     if (!has_places_law(scene)) return;
     for (size_t i = 0; i < scene->profiles; i++) {
-        const double times = jump_of(scene, &scene->profile[i], consistent);
+        double law = 0;
+        const double times = jump_of(scene, &scene->profile[i], consistent, &law);
         snprintf(name, sizeof name, "profile '%s'", scene->profile[i].name);
         if (isinf(times) && what[0] == '\0') memcpy(what, name, sizeof what);
-        told = told || told_of_contrast(adviser, name, law_of_profile(times), times);
+        told = told || told_of_contrast(adviser, name, law, times);
     }
     for (size_t i = 0; i < scene->snapshots; i++) {
         const double times = jump_in(scene, &scene->snapshot[i]);

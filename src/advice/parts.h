@@ -3,7 +3,8 @@
  * (states and weights where the rock jumps), fields.c (stresses there), places.c (receivers near sources, surfaces
  * before layers), layers.c (absorbing layers), mirrors.c (symmetry planes), edges.c (moved faces that meet
  * others), voids.c (places in holes and gaps), beyond.c (ground that goes on), stacks.c (ground that goes to and
- * fro), soft.c (thin soft layers), bending.c (slender bodies of particles), idle.c (words that change nothing). */
+ * fro), soft.c (thin soft layers), heights.c (what splines leave out of heights), bending.c (slender bodies of
+ * particles), idle.c (words that change nothing). */
 #ifndef SELAS_ADVICE_PARTS_H
 #define SELAS_ADVICE_PARTS_H
 

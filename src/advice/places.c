@@ -240,25 +240,6 @@ void look_at_levelled(struct adviser *adviser)
         topography->changed, levelled);
 }
 
-/* Heights that the splines leave out: velocities differ by up to 4 times the largest, in slowest waves (regress/
- * studies/blocks BUILD heights). */
-void look_at_smoothed(struct adviser *adviser)
-{
-    static const double law = 4, seen = .1;
-    const struct body *body = &adviser->scene->body;
-    const struct topography *topography = body->topography;
-    if (topography == NULL || topography->map == NULL) return;
-    const double smoothed = height_map_smoothed_in(topography->map, body->low, body->high),
-                 part = topography_levelled(adviser->scene, smoothed);
-    if (!(law * part > seen)) return;
-    advise(
-        adviser,
-        "the surface's splines, of pieces of two spacings, leave out up to %.3g of the heights, %.2g of the "
-        "slowest wave's length at the source's cutoff: velocities may differ by up to about %.2g; a finer "
-        "body%%spacing, or heights without parts as short, would be right",
-        smoothed, part, fmin(1, law * part));
-}
-
 /* Measured: doc/theory/graded-spacing.md, section 4. */
 void look_at_grading(struct adviser *adviser)
 {

@@ -250,11 +250,9 @@ static void add_ratio(const struct consistent *c, const struct family *family, c
     }
 }
 
-/* (G35a): where points are isotropic all about a knot, along the slope of lambda over mu. False: there is none. */
-static bool find_rise(const struct consistent *c, const size_t knot[3], const double place[3],
-                      double normal[3])
+/* Slope of lambda over mu at a knot along the slots, in cells; none across a symmetry plane. */
+static void find_slope(const struct consistent *c, const size_t knot[3], double slope[3])
 {
-    const struct metric metric = consistent_metric(c, place);
     struct sums sums = {0};
     for (int f = 0; f < 3; f++) {
         const struct family *family = &c->general->family[f];
@@ -264,17 +262,43 @@ static bool find_rise(const struct consistent *c, const size_t knot[3], const do
             add_ratio(c, family, knot, at, about.share, &sums);
     }
     for (int slot = 0; slot < 3; slot++) {
-        const struct spline *spline = c->layout[slot];
-        if (spline == NULL || mirrors(c, knot, slot)) continue;
         const double middle = sums.x[slot] / sums.weight;
-        normal[slot] = (sums.mx[slot] - sums.m * middle) / (sums.square[slot] - sums.x[slot] * middle) /
-                       glut_spacing(spline);
+        slope[slot] = c->layout[slot] == NULL || mirrors(c, knot, slot)
+                          ? 0
+                          : (sums.mx[slot] - sums.m * middle) / (sums.square[slot] - sums.x[slot] * middle);
     }
+}
+
+/* (G35a): where points are isotropic all about a knot, the direction in which lambda over mu changes most. False: it
+ * does not. */
+static bool find_rise(const struct consistent *c, const size_t knot[3], const double place[3],
+                      double normal[3])
+{
+    static const double slight = 1e-9;
+    const struct metric metric = consistent_metric(c, place);
+    double slope[4][3] = {{0}}, turn[3][3] = {{0}};
+    find_slope(c, knot, slope[0]);
+    for (int slot = 0; slot < 3; slot++)
+        for (int side = 0; side < 2 && c->layout[slot] != NULL; side++) {
+            size_t beside[3] = {knot[0], knot[1], knot[2]};
+            double there[3];
+            if (beside[slot] != (side == 0 ? 0 : c->layout[slot]->cells))
+                beside[slot] += side == 0 ? (size_t)-1 : 1;
+            find_slope(c, beside, there);
+            for (int t = 0; t < 3; t++)
+                slope[1 + slot][t] += (side == 0 ? -.5 : .5) * there[t];
+        }
+    for (int n = 0; n < 36; n++)
+        turn[n / 3 % 3][n % 3] += slope[n / 9][n / 3 % 3] * slope[n / 9][n % 3];
+    if (!(turn[0][0] + turn[1][1] + turn[2][2] > slight * slight) || !general_steepest(turn, normal))
+        return false;
+    for (int slot = 0; slot < 3; slot++)
+        normal[slot] /= c->layout[slot] != NULL ? glut_spacing(c->layout[slot]) : 1;
     metric_tilt(&metric, normal);
     const double length = hypot(hypot(normal[0], normal[1]), normal[2]);
-    for (int slot = 0; slot < 3 && length > 0; slot++)
+    for (int slot = 0; slot < 3; slot++)
         normal[slot] /= length;
-    return length > 0;
+    return true;
 }
 
 /* (G35): false: the rock about the knot has no direction. */
