@@ -99,7 +99,7 @@ static enum reading read_across(const struct scene *scene, const double position
 {
     enum { DIRECTIONS = 90 };
     const double spacing = spacing_at(scene, position);
-    double centre[3] = {0, 0, 0}, rise[3];
+    double centre[3] = {0, 0, 0}, rise[3] = {0, 0, 0};
     ground_from_deck(&scene->body, position, centre);
     const bool plane = scene->dimension == 2;
     if (!plane && scene->body.topography != NULL) return SMOOTH;
@@ -110,7 +110,7 @@ static enum reading read_across(const struct scene *scene, const double position
         if (aslant && !rises(scene, centre, spacing, rise)) break;
         if (aslant) memcpy(normal, rise, sizeof normal);
         int axis = 0;
-        for (int other = 1; other < scene->dimension; other++)
+        for (int other = 1; other < 3 && other < scene->dimension; other++)
             if (fabs(normal[other]) >= fabs(normal[axis])) axis = other;
         if (varies_along(scene, centre, spacing, normal) && !mirror_near(scene, centre, spacing, axis))
             return aslant ? ASLANT : ACROSS;
