@@ -196,31 +196,49 @@ selas_status neighbours_cells(struct neighbours *n, int dimension, size_t points
     return sort_points(n, dimension, points, position, radius, false, messages);
 }
 
-selas_status neighbours_find(struct neighbours *n, int dimension, size_t points, const double *position,
-                             double radius, bool with_self, struct messages *messages)
+/* Rows of the points from .. end - 1 of points in cells. */
+static selas_status make_rows(struct neighbours *n, size_t from, size_t end, bool with_self,
+                              struct messages *messages)
 {
-    const selas_status status = sort_points(n, dimension, points, position, radius, true, messages);
-    if (status != SELAS_OK) return status;
+    const size_t points = n->points;
+    const double radius = n->radius;
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < points; i++)
-        n->start[i + 1] = gather(n, position + 3 * i, radius, with_self ? points : i, 0, NULL);
-    n->start[0] = 0;
-    for (size_t i = 0; i < points; i++)
+    for (size_t i = from; i < end; i++)
+        n->start[i + 1] = gather(n, n->position + 3 * i, radius, with_self ? points : i, 0, NULL);
+    for (size_t i = 0; i <= from; i++)
+        n->start[i] = 0;
+    for (size_t i = from; i < end; i++)
         n->start[i + 1] += n->start[i];
-    const size_t pairs = n->start[points];
+    const size_t pairs = n->start[end];
+    for (size_t i = end; i < points; i++)
+        n->start[i + 1] = pairs;
     /* some room to spare, so that a slowly changing set of moving points does not take memory again and again
      */
     if ((pairs > n->pair_room || n->index == NULL) &&
         !grow(&n->index, &n->pair_room, pairs + (n->index != NULL ? pairs / 8 : 0), sizeof *n->index))
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu pairs of neighbours", pairs);
 #pragma omp parallel for schedule(static)
-    for (size_t i = 0; i < points; i++) {
+    for (size_t i = from; i < end; i++) {
         uint32_t *row = n->index + n->start[i];
         const size_t count = n->start[i + 1] - n->start[i];
-        gather(n, position + 3 * i, radius, with_self ? points : i, count, row);
+        gather(n, n->position + 3 * i, radius, with_self ? points : i, count, row);
         sort(row, count);
     }
     return SELAS_OK;
+}
+
+selas_status neighbours_find(struct neighbours *n, int dimension, size_t points, const double *position,
+                             double radius, bool with_self, struct messages *messages)
+{
+    const selas_status status = sort_points(n, dimension, points, position, radius, true, messages);
+    return status == SELAS_OK ? make_rows(n, 0, points, with_self, messages) : status;
+}
+
+selas_status neighbours_find_some(struct neighbours *n, int dimension, size_t points, const double *position,
+                                  double radius, size_t from, size_t end, struct messages *messages)
+{
+    const selas_status status = sort_points(n, dimension, points, position, radius, true, messages);
+    return status == SELAS_OK ? make_rows(n, from, end, false, messages) : status;
 }
 
 size_t neighbours_within(const struct neighbours *n, const double place[3], double radius, size_t room,

@@ -34,6 +34,11 @@ selas_status neighbours_find(struct neighbours *neighbours, int dimension, size_
                              const double *position, double radius, bool with_self,
                              struct messages *messages);
 
+/* As neighbours_find without self, of the points from .. end - 1: the rows of others are empty. */
+selas_status neighbours_find_some(struct neighbours *neighbours, int dimension, size_t points,
+                                  const double *position, double radius, size_t from, size_t end,
+                                  struct messages *messages);
+
 /* The cells alone, of about the size `radius`, for the functions below. On `neighbours` that are zero. Errors
  * as above. */
 selas_status neighbours_cells(struct neighbours *neighbours, int dimension, size_t points,

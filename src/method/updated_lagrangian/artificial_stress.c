@@ -1,8 +1,8 @@
 /* Artificial stress against the tensile instability (Gray, Monaghan & Swift 2001; He & Seaid 2016, Eqs
  * 20-23): in the principal axes R = -epsilon s / rho^2 where s > 0 (tension), 0 where s <= 0. In other words
  * R is -epsilon times the positive part of the tensor s / rho^2, which needs no angle. One tensor in each
- * lane of a vector, UPDATED_TENSORS at a time on every kind of processor: a rotation is a long chain of
- * operations that wait for each other, and all of them stop turning together. */
+ * lane of a vector, UPDATED_TENSORS at a time: a rotation is a long chain of operations that wait for each other. Each
+ * tensor stops turning when it is diagonal, whichever others go with it. */
 #include "base/machine.h"
 #include "base/vectors.h"
 #include "method/updated_lagrangian/updated_lagrangian.h"
@@ -33,9 +33,9 @@ INLINED void in_the_plane(double epsilon, const lanes *t, lanes *r)
     r[2] = difference * t[2];
 }
 
-/* One Jacobi rotation of a in the plane (p, q), gathered in v: t = tan of the angle is the smaller root of
+/* One Jacobi rotation of a in the plane (p, q), in the lanes that turn, gathered in v: t = tan of the angle is the smaller root of
  * t^2 + 2 theta t = 1, theta = (a_qq - a_pp) / (2 a_pq), here without dividing by a_pq. */
-INLINED void rotate(lanes a[3][3], lanes v[3][3], const int p, const int q)
+INLINED void rotate(lanes a[3][3], lanes v[3][3], const lanes_mask *turns, const int p, const int q)
 {
     const int k = 3 - p - q; /* the third axis */
     const lanes none = {0}, across = 2 * a[p][q], apart = a[q][q] - a[p][p];
@@ -43,7 +43,8 @@ INLINED void rotate(lanes a[3][3], lanes v[3][3], const int p, const int q)
     lanes root, size;
     lanes_root(&square, &root);
     const lanes magnitude = apart - 2 * WHERE(apart < 0, apart);
-    const lanes t = (across - 2 * WHERE(apart < 0, across)) / (magnitude + root + DBL_MIN);
+    const lanes angle = (across - 2 * WHERE(apart < 0, across)) / (magnitude + root + DBL_MIN);
+    const lanes t = WHERE(*turns, angle);
     const lanes secant = 1 + t * t;
     lanes_root(&secant, &size);
     const lanes c = 1 / size, s = t * c, moved = t * a[p][q];
@@ -60,15 +61,16 @@ INLINED void rotate(lanes a[3][3], lanes v[3][3], const int p, const int q)
     }
 }
 
-/* What stands beside the diagonal no longer counts in any lane. */
-INLINED bool are_diagonal(lanes a[GROUPS][3][3])
+/* In which lanes what stands beside the diagonal still counts; none: true. */
+INLINED bool are_diagonal(lanes a[GROUPS][3][3], lanes_mask turns[GROUPS])
 {
     lanes_mask more = {0};
     for (int g = 0; g < GROUPS; g++) {
         lanes(*m)[3] = a[g];
         const lanes beside = m[0][1] * m[0][1] + m[0][2] * m[0][2] + m[1][2] * m[1][2];
         const lanes along = m[0][0] * m[0][0] + m[1][1] * m[1][1] + m[2][2] * m[2][2];
-        more |= (lanes_mask)(beside > 1e-36 * along);
+        turns[g] = (lanes_mask)(beside > 1e-36 * along);
+        more |= turns[g];
     }
     long long any = 0;
     for (int n = 0; n < LANES; n++)
@@ -82,18 +84,19 @@ INLINED void in_space(double epsilon, lanes t[GROUPS][6], lanes r[GROUPS][6])
     static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
     const lanes none = {0}, one = none + 1;
     lanes a[GROUPS][3][3], v[GROUPS][3][3];
+    lanes_mask turns[GROUPS];
     for (int g = 0; g < GROUPS; g++)
         for (int s = 0; s < 6; s++) {
             a[g][row[s]][column[s]] = a[g][column[s]][row[s]] = t[g][s];
             v[g][row[s]][column[s]] = v[g][column[s]][row[s]] = s < 3 ? one : none;
         }
-    for (int sweep = 0; sweep < SWEEPS && !are_diagonal(a); sweep++) {
+    for (int sweep = 0; sweep < SWEEPS && !are_diagonal(a, turns); sweep++) {
         for (int g = 0; g < GROUPS; g++)
-            rotate(a[g], v[g], 0, 1);
+            rotate(a[g], v[g], &turns[g], 0, 1);
         for (int g = 0; g < GROUPS; g++)
-            rotate(a[g], v[g], 0, 2);
+            rotate(a[g], v[g], &turns[g], 0, 2);
         for (int g = 0; g < GROUPS; g++)
-            rotate(a[g], v[g], 1, 2);
+            rotate(a[g], v[g], &turns[g], 1, 2);
     }
     for (int g = 0; g < GROUPS; g++) {
         lanes value[3];

@@ -6,7 +6,7 @@
  * (gather.h, pairs.h); what the sums say is worked out for several at a time (contract.h). */
 #include "method/updated_lagrangian/gather.h"
 
-/* Rates of the particles first ... last - 1; first is a multiple of GROUP. */
+/* Rates of the own particles first ... last - 1; first is a multiple of GROUP beyond the first own one. */
 INLINED void rates(const struct updated *updated, const int dimension, size_t first, size_t last,
                    const double *y, double *dydt)
 {

@@ -98,15 +98,16 @@ INLINED void correction(const struct updated *updated, const int dimension, cons
             inverse[a][b] *= scale;
 }
 
-/* Rates of the particles i ... i + count - 1, at most LANES. */
+/* Rates of the own particles i ... i + count - 1, at most LANES. */
 INLINED void contract(const struct updated *updated, const int dimension, size_t i, size_t count,
                       const struct lane_sums *sums, const double *y, double *dydt)
 {
-    const size_t points = updated->cloud->points, unknowns = updated->model.unknowns;
+    const size_t row = updated_row(updated, i), unknowns = updated->model.unknowns;
     const size_t dim = (size_t)dimension, stresses = dim * (dim + 1) / 2;
-    const double *density = y + 2 * unknowns + i, *stress = y + 2 * unknowns + points + stresses * i;
-    double *acceleration = dydt + unknowns + dim * i, *density_rate = dydt + 2 * unknowns + i,
-           *stresses_rate = dydt + 2 * unknowns + points + stresses * i;
+    const size_t tensors = 2 * unknowns + updated->held + stresses * row;
+    const double *density = y + 2 * unknowns + row, *stress = y + tensors;
+    double *acceleration = dydt + unknowns + dim * row, *density_rate = dydt + 2 * unknowns + row,
+           *stresses_rate = dydt + tensors;
     lanes inverse[3][3], gradient[3][3], trace = {0}, own[6] = {{0}}, soft[6] = {{0}}, rate[6], thinning;
     correction(updated, dimension, sums->matrix, inverse);
     for (int a = 0; a < dimension; a++) {

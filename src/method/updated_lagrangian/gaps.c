@@ -7,7 +7,7 @@
 
 static size_t point_of(const struct updated *updated, size_t site)
 {
-    const size_t points = updated->cloud->points;
+    const size_t points = updated->points;
     return site < points ? site : updated->ghost[site - points].source;
 }
 
@@ -38,18 +38,23 @@ static bool beside_gap(const struct updated *updated, size_t i, uint32_t *site)
 selas_status updated_warn_of_gaps(const struct updated *updated, struct messages *messages)
 {
     const struct body *body = &updated->model.scene->body;
-    const size_t points = updated->cloud->points;
-    size_t beside = 0, first = 0;
+    const size_t points = updated->points;
+    double beside = 0, first = -INFINITY;
     if (body->shape != BODY_POINTS) return SELAS_OK;
     uint32_t *site = array_new(points + updated->ghosts, sizeof *site);
-    if (site == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
-    for (size_t i = 0; i < points; i++)
-        if (beside_gap(updated, i, site) && beside++ == 0) first = i;
+    selas_status status = SELAS_OK;
+    if (site == NULL) status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
+    status = updated_agree(updated, status, messages);
+    for (size_t i = updated->from; status == SELAS_OK && i < updated->from + updated->own; i++)
+        if (beside_gap(updated, i, site) && beside++ == 0) first = -(double)i;
     array_free(site);
-    const double *x = updated->cloud->position + 3 * first;
+    if (status != SELAS_OK) return status;
+    ranks_sum(updated->part.ranks, 1, &beside);
+    ranks_largest(updated->part.ranks, 1, &first); /* all ranks have all points of a file */
+    const double *x = updated->cloud->position + 3 * (beside > 0 ? (size_t)-first : 0);
     if (beside > 0)
         warn(messages,
-             "kernels reach across a gap beside (%.6g, %.6g, %.6g), and %zu more points: its sides pull at "
+             "kernels reach across a gap beside (%.6g, %.6g, %.6g), and %.0f more points: its sides pull at "
              "each "
              "other, and velocities may be several tenths wrong; finer points, or method%%variant = "
              "'total-lagrangian', which sees gaps, would be right",

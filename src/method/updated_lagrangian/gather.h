@@ -17,7 +17,7 @@
 
 #include "method/updated_lagrangian/pairs.h"
 
-/* Sums of the particles first ... last - 1, LANES in each; first is a multiple of GROUP. Chunk by chunk of
+/* Sums of the particles first ... last - 1, LANES in each; groups begin with the first own particle. Chunk by chunk of
  * all of them: what the neighbours of the first are read from is in the first-level cache still when the
  * second need it. */
 INLINED void gather_ordered(const struct updated *updated, const int dimension, const struct pair_switches on,
@@ -28,13 +28,14 @@ INLINED void gather_ordered(const struct updated *updated, const int dimension, 
     for (int k = 0; more; k += CHUNK) {
         more = false;
         for (size_t i = first; i < last; i += LANES) {
+            const size_t group = (i - updated->from) / GROUP;
             const struct pairs pairs = {.own = updated_packed(updated, i),
                                         .other = updated_packed(updated, i),
                                         .own_stride = updated->stride,
                                         .other_stride = updated->stride,
-                                        .shift =
-                                            updated->shift + updated->neighbours.start[i / GROUP * GROUP],
-                                        .count = (int)updated->shifts[i / GROUP]};
+                                        .shift = updated->shift +
+                                                 updated->neighbours.start[updated->from + GROUP * group],
+                                        .count = (int)updated->shifts[group]};
             if (k < pairs.count)
                 add_chunk(updated, &constants, dimension, on, &pairs, k, &sums[(i - first) / LANES]);
             more = more || k + CHUNK < pairs.count;

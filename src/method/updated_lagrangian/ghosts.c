@@ -58,7 +58,7 @@ static uint64_t loads_at(const struct scene *scene, enum face face, const double
 static size_t count_images(const struct updated *updated, int axis, double wall)
 {
     size_t count = 0;
-    for (size_t i = 0; i < updated->cloud->points + updated->ghosts; i++)
+    for (size_t i = 0; i < updated->points + updated->ghosts; i++)
         if (fabs(updated->reference[3 * i + (size_t)axis] - wall) < updated->longest * updated->reach)
             count++;
     return count;
@@ -67,7 +67,7 @@ static size_t count_images(const struct updated *updated, int axis, double wall)
 /* Longer copies of the arrays of ghosts and places. */
 static bool grow(struct updated *updated, size_t images)
 {
-    const size_t places = updated->cloud->points + updated->ghosts;
+    const size_t places = updated->points + updated->ghosts;
     struct updated_ghost *ghost = array_new(updated->ghosts + images, sizeof *ghost);
     double *reference = array_new(3 * (places + images), sizeof *reference);
     if (ghost == NULL || reference == NULL) {
@@ -89,7 +89,7 @@ static bool mirror_at(struct updated *updated, enum face face)
     const struct scene *scene = updated->model.scene;
     const int axis = face_axis(face);
     const double wall = face_plane(&scene->body, face);
-    const size_t points = updated->cloud->points, before = updated->ghosts;
+    const size_t points = updated->points, before = updated->ghosts;
     if (!grow(updated, count_images(updated, axis, wall))) return false;
     for (size_t i = 0; i < points + before; i++) {
         const double *place = updated->reference + 3 * i;
@@ -202,7 +202,7 @@ static void repel(const struct updated *updated, size_t place)
 {
     const struct updated_layout layout = updated->layout;
     const double epsilon = updated->options.artificial_stress * updated->repulsion_scale;
-    const size_t places = updated->cloud->points + updated->ghosts, stresses = (size_t)updated->stresses;
+    const size_t places = updated->points + updated->ghosts, stresses = (size_t)updated->stresses;
     double *packed = updated_packed(updated, place);
     if (updated->ordered) {
         taken_updated_stresses()->artificial(updated->dimension, epsilon, updated->stride,
@@ -226,7 +226,7 @@ static void repel_ghost(const struct updated *updated, size_t g)
     const struct updated_ghost *ghost = &updated->ghost[g];
     const size_t step = updated_step(updated), repulsion = updated->layout.repulsion;
     const double *own = updated_packed(updated, ghost->source) + step * repulsion;
-    double *image = updated_packed(updated, updated->cloud->points + g) + step * repulsion;
+    double *image = updated_packed(updated, updated->points + g) + step * repulsion;
     for (size_t s = 0; s < (size_t)updated->stresses; s++)
         image[step * s] = own[step * s];
     for (int f = 0; f < ghost->count; f++) {
@@ -238,55 +238,33 @@ static void repel_ghost(const struct updated *updated, size_t g)
 
 static void load_particle(const struct updated *updated, const double *y, size_t i, struct image *image)
 {
-    const size_t dimension = (size_t)updated->dimension, stresses = (size_t)updated->stresses;
-    const double *u = y + dimension * i, *v = u + updated->model.unknowns;
-    const double *density = y + 2 * updated->model.unknowns, *stress = density + updated->cloud->points;
+    const size_t dimension = (size_t)updated->dimension, stresses = (size_t)updated->stresses,
+                 unknowns = updated->model.unknowns;
+    const double *u, *v, *density, *stress;
+    if (updated_owns(updated, i)) {
+        const size_t row = updated_row(updated, i);
+        u = y + dimension * row;
+        v = u + unknowns;
+        density = y + 2 * unknowns + row;
+        stress = y + 2 * unknowns + updated->held + stresses * row;
+    } else {
+        const size_t others = i < updated->from ? i : i - updated->own;
+        u = updated->part.arrived + (2 * dimension + 1 + stresses) * others;
+        v = u + dimension;
+        density = v + dimension;
+        stress = density + 1;
+    }
     for (size_t a = 0; a < dimension; a++) {
         image->u[a] = u[a];
         image->v[a] = v[a];
     }
-    memcpy(image->stress, stress + stresses * i, stresses * sizeof *stress);
-    image->density = density[i];
+    memcpy(image->stress, stress, stresses * sizeof *stress);
+    image->density = *density;
 }
 
-/* New lists if a particle has moved by half the skin since the last search. The lists hold more pairs than
- * the kernel reaches, sorted, and pairs out of reach are passed over: when they were made does not change a
- * bit. */
-static void search_if_needed(struct updated *updated)
+static void fill_places(const struct updated *updated, const struct drive *drive, const double *y)
 {
-    const size_t dimension = (size_t)updated->dimension, step = updated_step(updated);
-    const size_t places = updated->cloud->points + updated->ghosts;
-    const double limit = updated->skin * updated->skin / 4;
-    bool moved = false;
-#pragma omp parallel for schedule(static) reduction(|| : moved) if (places >= UPDATED_PARALLEL)
-    for (size_t i = 0; i < places; i++) {
-        double square = 0;
-        for (size_t a = 0; a < dimension; a++) {
-            const double d = updated_packed(updated, i)[step * a] - updated->searched[3 * i + a];
-            square += d * d;
-        }
-        moved = moved || square > limit;
-    }
-    if (!moved && updated->neighbours.points == places) return;
-    for (size_t i = 0; i < places; i++)
-        for (size_t a = 0; a < dimension; a++)
-            updated->searched[3 * i + a] = updated_packed(updated, i)[step * a];
-    struct messages unheard = {0};
-    updated->search_failed =
-        neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
-                        updated->longest * updated->reach + updated->skin, false, &unheard) != SELAS_OK ||
-        (updated->ordered && updated_merge_lists(updated, &unheard) != SELAS_OK);
-    messages_free(&unheard);
-}
-
-void updated_fill(struct updated *updated, const struct drive *drive, const double *y)
-{
-    const size_t points = updated->cloud->points;
-    for (size_t face = 0; face < FACES; face++) {
-        updated->amplitude[WALL_PLACE][face] = wall_amplitude(drive->displacement, updated, face);
-        updated->amplitude[WALL_SPEED][face] = wall_amplitude(drive->velocity, updated, face);
-        updated->amplitude[WALL_ACCELERATION][face] = wall_amplitude(drive->motion, updated, face);
-    }
+    const size_t points = updated->points;
 #pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
     for (size_t i = 0; i < points; i++) {
         struct image image = {.pressed = false};
@@ -313,8 +291,48 @@ void updated_fill(struct updated *updated, const struct drive *drive, const doub
     }
     for (size_t g = 0; g < updated->ghosts && updated->repulsive; g++)
         repel_ghost(updated, g);
-    search_if_needed(updated);
 }
+
+static void keep_places(const struct updated *updated)
+{
+    const size_t dimension = (size_t)updated->dimension, step = updated_step(updated);
+    for (size_t i = 0; i < updated->points + updated->ghosts; i++)
+        for (size_t a = 0; a < dimension; a++)
+            updated->searched[3 * i + a] = updated_packed(updated, i)[step * a];
+}
+
+/* New lists where a particle has moved by half the skin since the last search. The lists hold more pairs than
+ * the kernel reaches, sorted, and pairs out of reach are passed over: when they were made does not change a
+ * bit. */
+static void search(struct updated *updated, const struct drive *drive, const double *y)
+{
+    struct messages unheard = {0};
+    keep_places(updated);
+    updated->search_failed = !updated_meet(updated);
+    if (updated->search_failed) return;
+    if (updated->part.ranks != NULL) {
+        updated_gather(updated, y);
+        fill_places(updated, drive, y);
+        keep_places(updated);
+    }
+    updated->search_failed = !updated_all_have(updated, updated_find_neighbours(updated, &unheard) == SELAS_OK);
+    if (!updated->search_failed) updated_look_ahead(updated);
+    messages_free(&unheard);
+}
+
+void updated_fill(struct updated *updated, const struct drive *drive, const double *y)
+{
+    for (size_t face = 0; face < FACES; face++) {
+        updated->amplitude[WALL_PLACE][face] = wall_amplitude(drive->displacement, updated, face);
+        updated->amplitude[WALL_SPEED][face] = wall_amplitude(drive->velocity, updated, face);
+        updated->amplitude[WALL_ACCELERATION][face] = wall_amplitude(drive->motion, updated, face);
+    }
+    if (updated->part.lost) return;
+    if (updated->part.ranks != NULL) updated_gather(updated, y);
+    fill_places(updated, drive, y);
+    if (updated_search_is_due(updated)) search(updated, drive, y);
+}
+
 
 double updated_power_of_faces(const struct updated *updated, const struct drive *drive, const double *y,
                               double *absorbed)
@@ -325,9 +343,10 @@ double updated_power_of_faces(const struct updated *updated, const struct drive 
         const struct updated_ghost *ghost = &updated->ghost[g];
         const size_t face = ghost->face[0], i = ghost->source;
         const size_t axis = (size_t)face_axis((enum face)face);
-        const double depth = fabs(updated->reference[3 * (updated->cloud->points + g) + axis] -
+        if (!updated_owns(updated, i)) continue;
+        const double depth = fabs(updated->reference[3 * (updated->points + g) + axis] -
                                   updated->reference[3 * i + axis]);
-        const double volume = updated->cloud->volume[i], spacing = pow(volume, 1.0 / updated->dimension);
+        const double volume = updated_volume(updated, i), spacing = pow(volume, 1.0 / updated->dimension);
         if (ghost->count > 1 || depth > 1.5 * spacing) continue; /* not the outermost */
         const double area = volume / spacing;
         struct image image = {.density = 1};

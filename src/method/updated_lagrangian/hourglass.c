@@ -35,20 +35,41 @@ struct updated_hourglass {
 
 selas_status updated_hourglass_new(struct updated *updated, struct messages *messages)
 {
-    const size_t points = updated->cloud->points, places = points + updated->ghosts,
-                 dimension = (size_t)updated->dimension, square = dimension * dimension;
-    struct updated_hourglass *all = array_new(1, sizeof *all);
-    updated->hourglass = all;
-    if (all != NULL) {
-        all->packed = array_new(2 * dimension * places, sizeof(double));
-        all->gradient = array_new(square * places, sizeof(double));
-        all->turned = array_new(square * places, sizeof(double));
-        all->inverse = array_new(square * points, sizeof(double));
-    }
-    if (all == NULL || all->packed == NULL || all->gradient == NULL || all->turned == NULL ||
-        all->inverse == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for hourglass control of %zu particles", points);
+    updated->hourglass = array_new(1, sizeof *updated->hourglass);
+    if (updated->hourglass == NULL || !updated_hourglass_room(updated) || !updated_hourglass_weights(updated))
+        return fail(messages, SELAS_NO_MEMORY, "no memory for hourglass control of %zu particles",
+                    updated->points);
     return SELAS_OK;
+}
+
+bool updated_hourglass_room(const struct updated *updated)
+{
+    struct updated_hourglass *all = updated->hourglass;
+    const size_t points = updated->points, places = points + updated->ghosts,
+                 dimension = (size_t)updated->dimension, square = dimension * dimension;
+    if (all == NULL) return true;
+    double **const arrays[] = {&all->packed, &all->gradient, &all->turned, &all->inverse};
+    const size_t counts[] = {2 * dimension * places, square * places, square * places, square * points};
+    bool room = true;
+    for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) {
+        array_free(*arrays[k]);
+        *arrays[k] = array_new(counts[k], sizeof(double));
+        room = room && *arrays[k] != NULL;
+    }
+    return room;
+}
+
+/* The lists grow and shrink. */
+bool updated_hourglass_weights(const struct updated *updated)
+{
+    struct updated_hourglass *all = updated->hourglass;
+    const size_t pairs = updated->neighbours.start[updated->points];
+    if (all == NULL || pairs <= all->room) return true;
+    array_free(all->weight);
+    all->room = pairs + pairs / 8;
+    all->weight = array_new(all->room, sizeof(double));
+    if (all->weight == NULL) all->room = 0;
+    return all->weight != NULL;
 }
 
 void updated_hourglass_free(struct updated_hourglass *all)
@@ -66,7 +87,7 @@ size_t updated_hourglass_bytes(const struct updated *updated)
 {
     if (updated->hourglass == NULL) return 0;
     const size_t dimension = (size_t)updated->dimension;
-    return sizeof(double) * ((updated->cloud->points + updated->ghosts) * dimension * (2 + 3 * dimension) +
+    return sizeof(double) * ((updated->points + updated->ghosts) * dimension * (2 + 3 * dimension) +
                              updated->hourglass->room);
 }
 
@@ -142,7 +163,7 @@ static void mirror_matrix(const struct updated *updated, double *matrices, size_
 {
     const struct updated_ghost *ghost = &updated->ghost[g];
     const size_t dimension = (size_t)updated->dimension, square = dimension * dimension;
-    double *image = matrices + square * (updated->cloud->points + g);
+    double *image = matrices + square * (updated->points + g);
     memcpy(image, matrices + square * ghost->source, square * sizeof *image);
     for (int f = 0; f < ghost->count; f++) {
         const size_t axis = (size_t)face_axis((enum face)ghost->face[f]);
@@ -178,10 +199,10 @@ INLINED void push_pairs(const struct updated *updated, const int dimension, size
     }
     const double density = updated_packed(updated, i)[updated_step(updated) * updated->layout.density];
     const double *inverse = all->inverse + square * i;
-    const double *stress =
-        y + 2 * updated->model.unknowns + updated->cloud->points + (size_t)updated->stresses * i;
+    const size_t row = updated_row(updated, i);
+    const double *stress = y + 2 * updated->model.unknowns + updated->held + (size_t)updated->stresses * row;
     for (int a = 0; a < dimension; a++) {
-        acceleration[dim * i + (size_t)a] += modulus / density * force[a];
+        acceleration[dim * row + (size_t)a] += modulus / density * force[a];
         for (int b = 0; b < dimension; b++) {
             double total = 0;
             for (int c = 0; c < dimension; c++)
@@ -211,7 +232,7 @@ INLINED void return_pairs(const struct updated *updated, const int dimension, si
     }
     const double density = updated_packed(updated, i)[updated_step(updated) * updated->layout.density];
     for (int a = 0; a < dimension; a++)
-        acceleration[dim * i + (size_t)a] -= force[a] / (2 * density);
+        acceleration[dim * updated_row(updated, i) + (size_t)a] -= force[a] / (2 * density);
 }
 
 /* Instances with constant dimension: of particles first ... last - 1. */
@@ -245,11 +266,11 @@ enum pass { GRADIENTS, PUSHES, RETURNS };
 
 static void one_pass(const struct updated *updated, enum pass pass, const double *y, double *acceleration)
 {
-    const size_t points = updated->cloud->points, blocks = (points + BLOCK - 1) / BLOCK;
+    const size_t blocks = (updated->own + BLOCK - 1) / BLOCK, end = updated->from + updated->own;
     const int dimension = updated->dimension;
-#pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
+#pragma omp parallel for schedule(static) if (updated->own >= UPDATED_PARALLEL)
     for (size_t block = 0; block < blocks; block++) {
-        const size_t first = BLOCK * block, last = first + BLOCK < points ? first + BLOCK : points;
+        const size_t first = updated->from + BLOCK * block, last = first + BLOCK < end ? first + BLOCK : end;
         if (pass == GRADIENTS)
             (dimension == 1 ? gradients_1 : dimension == 2 ? gradients_2 : gradients_3)(updated, first, last);
         else if (pass == PUSHES)
@@ -263,33 +284,22 @@ static void one_pass(const struct updated *updated, enum pass pass, const double
     }
 }
 
-/* Room for the weights of all pairs; the lists grow and shrink. */
-static bool make_room(struct updated *updated)
+/* Own particles have a matrix, g or B; their images get it, and those of others and theirs. */
+static void complete(const struct updated *updated, double *matrices)
 {
-    struct updated_hourglass *all = updated->hourglass;
-    const size_t pairs = updated->neighbours.start[updated->cloud->points];
-    if (pairs <= all->room) return true;
-    array_free(all->weight);
-    all->room = pairs + pairs / 8;
-    all->weight = array_new(all->room, sizeof(double));
-    if (all->weight == NULL) all->room = 0;
-    return all->weight != NULL;
+    updated_bring(updated, (size_t)(updated->dimension * updated->dimension), matrices);
+    for (size_t g = 0; g < updated->ghosts; g++)
+        mirror_matrix(updated, matrices, g);
 }
 
 void updated_add_hourglass(struct updated *updated, const double *y, double *acceleration)
 {
-    const size_t points = updated->cloud->points, places = points + updated->ghosts;
-    if (!make_room(updated)) {
-        acceleration[0] = NAN; /* which the run notices */
-        return;
-    }
+    const size_t places = updated->points + updated->ghosts;
     for (size_t place = 0; place < places; place++)
         pack_motion(updated, place);
     one_pass(updated, GRADIENTS, y, acceleration);
-    for (size_t g = 0; g < updated->ghosts; g++)
-        mirror_matrix(updated, updated->hourglass->gradient, g);
+    complete(updated, updated->hourglass->gradient);
     one_pass(updated, PUSHES, y, acceleration);
-    for (size_t g = 0; g < updated->ghosts; g++)
-        mirror_matrix(updated, updated->hourglass->turned, g);
+    complete(updated, updated->hourglass->turned);
     one_pass(updated, RETURNS, y, acceleration);
 }

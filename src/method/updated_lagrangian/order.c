@@ -15,7 +15,7 @@ static const double MOST = 2;
 static size_t reachable(const struct updated *updated, size_t i, size_t k)
 {
     const struct neighbours *near = &updated->neighbours;
-    const size_t points = updated->cloud->points;
+    const size_t points = updated->points;
     for (; k < near->start[i + 1] && !updated->even; k++) {
         const size_t j = near->index[k], source = j < points ? j : updated->ghost[j - points].source;
         const double most =
@@ -30,12 +30,11 @@ static size_t reachable(const struct updated *updated, size_t i, size_t k)
     return k;
 }
 
-/* Merges the lists of particles i ... i + 7 into ascending distances in memory; returns how many. Adds the
+/* Merges the lists of particles i ... last - 1, at most eight, into ascending distances in memory; returns how many. Adds the
  * number of pairs to *pairs. */
-static uint32_t merge(const struct updated *updated, size_t i, size_t *pairs)
+static uint32_t merge(const struct updated *updated, size_t i, size_t last, size_t *pairs)
 {
     const struct neighbours *near = &updated->neighbours;
-    const size_t last = i + GROUP < updated->cloud->points ? i + GROUP : updated->cloud->points;
     int32_t *shift = updated->shift + near->start[i];
     size_t next[GROUP] = {0};
     uint32_t count = 0;
@@ -59,30 +58,35 @@ static uint32_t merge(const struct updated *updated, size_t i, size_t *pairs)
     }
 }
 
-selas_status updated_merge_lists(struct updated *updated, struct messages *messages)
+/* Merges the lists of the particles from .. end - 1, groups of eight from the first one on. */
+static selas_status merge_all(struct updated *updated, size_t from, size_t end, struct messages *messages)
 {
-    const size_t points = updated->cloud->points;
     if (updated->shift_room < updated->neighbours.pair_room) {
         array_free(updated->shift);
         updated->shift_room = updated->neighbours.pair_room;
         updated->shift = array_new(updated->shift_room, sizeof *updated->shift);
         if (updated->shift == NULL) {
             updated->shift_room = 0;
-            return fail(messages, SELAS_NO_MEMORY, "no memory for the neighbours of %zu particles", points);
+            return fail(messages, SELAS_NO_MEMORY, "no memory for the neighbours of %zu particles", end - from);
         }
     }
     size_t pairs = 0;
-#pragma omp parallel for schedule(static) reduction(+ : pairs) if (points >= UPDATED_PARALLEL)
-    for (size_t i = 0; i < points; i += GROUP)
-        updated->shifts[i / GROUP] = merge(updated, i, &pairs);
+#pragma omp parallel for schedule(static) reduction(+ : pairs) if (end - from >= UPDATED_PARALLEL)
+    for (size_t i = from; i < end; i += GROUP)
+        updated->shifts[(i - from) / GROUP] = merge(updated, i, i + GROUP < end ? i + GROUP : end, &pairs);
     updated->merged = pairs;
     return SELAS_OK;
+}
+
+selas_status updated_merge_lists(struct updated *updated, struct messages *messages)
+{
+    return merge_all(updated, updated->from, updated->from + updated->own, messages);
 }
 
 /* The places before the first and behind the last are far away from everything. */
 static void fill_ends(struct updated *updated)
 {
-    const size_t places = updated->cloud->points + updated->ghosts;
+    const size_t places = updated->points + updated->ghosts;
     for (size_t k = 0; k < updated->stride; k++) {
         if (k >= GROUP && k < GROUP + places) continue;
         for (size_t a = 0; a < (size_t)updated->dimension; a++)
@@ -92,9 +96,21 @@ static void fill_ends(struct updated *updated)
     }
 }
 
+selas_status updated_take_packed(struct updated *updated, struct messages *messages)
+{
+    const size_t places = updated->points + updated->ghosts;
+    double **const packed = updated->ordered ? &updated->planes : &updated->record;
+    updated->stride = (places + 4 * GROUP - 1) / GROUP * GROUP;
+    array_free(*packed);
+    *packed = array_new(updated->layout.size * (updated->ordered ? updated->stride : places), sizeof **packed);
+    if (*packed == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", updated->points);
+    if (updated->ordered) fill_ends(updated);
+    return SELAS_OK;
+}
+
 selas_status updated_one_by_one(struct updated *updated, struct messages *messages)
 {
-    const size_t places = updated->cloud->points + updated->ghosts;
     array_free(updated->planes);
     array_free(updated->shifts);
     array_free(updated->shift);
@@ -103,31 +119,38 @@ selas_status updated_one_by_one(struct updated *updated, struct messages *messag
     updated->shifts = NULL;
     updated->shift = NULL;
     updated->shift_room = 0;
-    array_free(updated->record);
-    updated->record = array_new(updated->layout.size * places, sizeof(double));
-    if (updated->record == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", updated->cloud->points);
-    return SELAS_OK;
+    return updated_take_packed(updated, messages);
+}
+
+/* The groups that begin with own particles: where the first one does, and where the last one ends. */
+static void own_groups(const struct updated *updated, size_t *from, size_t *end)
+{
+    const size_t before = updated->cloud->first, whole = updated->cloud->whole;
+    *from = (before + updated->from + GROUP - 1) / GROUP * GROUP;
+    *end = (before + updated->from + updated->own + GROUP - 1) / GROUP * GROUP;
+    *end = (*end < whole ? *end : whole) - before;
+    *from -= before;
 }
 
 selas_status updated_choose_order(struct updated *updated, struct messages *messages)
 {
-    const size_t points = updated->cloud->points, places = points + updated->ghosts;
-    if (!updated->cubic || places > INT32_MAX) return updated_one_by_one(updated, messages);
-    const size_t groups = (points + GROUP - 1) / GROUP;
-    updated->stride = (places + 4 * GROUP - 1) / GROUP * GROUP;
-    updated->shifts = array_new(groups, sizeof *updated->shifts);
-    updated->planes = array_new(updated->layout.size * updated->stride, sizeof *updated->planes);
-    if (updated->shifts == NULL || updated->planes == NULL)
-        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
-    selas_status status = updated_merge_lists(updated, messages);
-    double merged = 0;
-    for (size_t k = 0; status == SELAS_OK && k < groups; k++)
-        merged += GROUP * (double)updated->shifts[k];
-    updated->ordered = merged < MOST * (double)updated->merged;
-    if (updated->ordered)
-        fill_ends(updated);
-    else if (status == SELAS_OK)
-        status = updated_one_by_one(updated, messages);
-    return status;
+    double merged[2] = {0, 0}; /* of pairs of eight particles each, of single ones */
+    size_t from, end;
+    own_groups(updated, &from, &end);
+    selas_status status = SELAS_OK;
+    updated->ordered = updated->cubic && updated->points + updated->ghosts <= INT32_MAX;
+    if (updated->ordered) {
+        updated->shifts = array_new(updated->own / GROUP + 2, sizeof *updated->shifts);
+        status = updated->shifts != NULL
+                     ? merge_all(updated, from, end, messages)
+                     : fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", updated->points);
+    }
+    status = updated_agree(updated, status, messages);
+    if (status != SELAS_OK) return status;
+    for (size_t i = from; updated->ordered && i < end; i += GROUP)
+        merged[0] += GROUP * (double)updated->shifts[(i - from) / GROUP];
+    merged[1] = (double)updated->merged;
+    ranks_sum(updated->part.ranks, 2, merged);
+    updated->ordered = updated->ordered && merged[0] < MOST * merged[1];
+    return updated->ordered ? updated_take_packed(updated, messages) : updated_one_by_one(updated, messages);
 }

@@ -30,13 +30,11 @@ void updated_invert(int dimension, const double matrix[6], double inverse[3][3])
 
 static void all_rates(const struct updated *updated, const double *y, double *dydt)
 {
-    const size_t points = updated->cloud->points;
-    size_t from, end;
-    updated_own_blocks(updated, &from, &end);
-#pragma omp parallel for schedule(static) if (points >= UPDATED_PARALLEL)
-    for (size_t block = from; block < end; block++) {
-        const size_t first = UPDATED_BLOCK * block;
-        const size_t last = first + UPDATED_BLOCK < points ? first + UPDATED_BLOCK : points;
+    const size_t end = updated->from + updated->own, blocks = (updated->own + UPDATED_BLOCK - 1) / UPDATED_BLOCK;
+#pragma omp parallel for schedule(static) if (updated->own >= UPDATED_PARALLEL)
+    for (size_t block = 0; block < blocks; block++) {
+        const size_t first = updated->from + UPDATED_BLOCK * block;
+        const size_t last = first + UPDATED_BLOCK < end ? first + UPDATED_BLOCK : end;
         taken_updated_rates()->of[updated->dimension - 1](updated, first, last, y, dydt);
     }
 }
@@ -46,11 +44,11 @@ static void add_body_forces(const struct updated *updated, const struct drive *d
 {
     const struct scene *scene = updated->model.scene;
     if (drive->load == NULL) return;
-    const size_t points = updated->cloud->points, dimension = (size_t)updated->dimension;
+    const size_t from = updated->lead, end = from + updated->own, dimension = (size_t)updated->dimension;
     const double *density = y + 2 * updated->model.unknowns;
     for (size_t k = 0; k < scene->loads; k++) {
         if (scene->load[k].kind != LOAD_BODY_FORCE) continue;
-        for (size_t i = 0; i < points; i++)
+        for (size_t i = from; i < end; i++)
             for (size_t a = 0; a < dimension; a++)
                 acceleration[dimension * i + a] +=
                     drive->load[k] * updated->load_direction[3 * k + a] / density[i];
@@ -64,13 +62,13 @@ void updated_rate(struct model *model, const struct drive *drive, const double *
     model->evaluations++;
     updated_fill(updated, drive, y);
     memcpy(dydt, y + unknowns, unknowns * sizeof *dydt);
-    if (updated->search_failed)
+    if (updated->search_failed) {
         for (size_t i = unknowns; i < model->state_size; i++)
             dydt[i] = NAN;
-    else
-        all_rates(updated, y, dydt);
-    updated_exchange(updated, dydt);
-    if (updated->search_failed) return;
+        return;
+    }
+    all_rates(updated, y, dydt);
     if (updated->hourglass != NULL) updated_add_hourglass(updated, y, dydt + unknowns);
     add_body_forces(updated, drive, y, dydt + unknowns);
+    updated_exchange(updated, dydt);
 }

@@ -37,19 +37,25 @@ struct iteration {
     bool room;
 };
 
-static double norm(const double *x, size_t n)
+/* Together: sums of the ranks' own numbers, in the order of one process. */
+static double product_of(const struct updated *updated, const double *a, const double *b)
 {
+    struct ranks *ranks = updated->part.ranks;
+    const size_t d = (size_t)updated->dimension, from = d * updated->lead, end = from + d * updated->own;
     double sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += x[i] * x[i];
-    return sqrt(sum);
+    for (int r = 0; r < ranks_count(ranks); r++) {
+        for (size_t i = from; r == ranks_me(ranks) && i < end; i++)
+            sum += a[i] * b[i];
+        ranks_spread(ranks, r, &sum, sizeof sum);
+    }
+    return sum;
 }
 
 /* Rates of the body at rest with velocities v and stresses s (either may be NULL). */
 static void evaluate(struct updated *updated, struct iteration *work, const double *v, const double *stress)
 {
     struct model *model = &updated->model;
-    const size_t unknowns = model->unknowns, points = updated->cloud->points;
+    const size_t unknowns = model->unknowns, points = updated->held;
     const struct drive quiet = {.time = 0};
     memset(work->y, 0, model->state_size * sizeof *work->y);
     if (v != NULL) memcpy(work->y + unknowns, v, unknowns * sizeof *v);
@@ -62,7 +68,7 @@ static void evaluate(struct updated *updated, struct iteration *work, const doub
 
 static void wave_map(struct updated *updated, struct iteration *work)
 {
-    const size_t extra = 2 * updated->model.unknowns + updated->cloud->points;
+    const size_t extra = 2 * updated->model.unknowns + updated->held;
     evaluate(updated, work, work->vector, NULL);
     /* evaluate() clears y, so that the rates must not be read from it */
     const size_t bytes = (updated->model.state_size - extra) * sizeof(double);
@@ -116,20 +122,19 @@ static bool largest_ritz(const struct iteration *work, size_t n, double *theta, 
 
 /* Takes what is along the first n vectors of the basis out of the rates of the velocities, the next vector.
  */
-static void project(struct iteration *work, size_t unknowns, size_t n)
+static void project(const struct updated *updated, struct iteration *work, size_t n)
 {
+    const size_t unknowns = updated->model.unknowns;
     double *next = work->basis + unknowns * n;
     memcpy(next, work->dydt + unknowns, unknowns * sizeof *next);
     for (size_t j = 0; j < n; j++) {
         const double *known = work->basis + unknowns * j;
-        double product = 0;
-        for (size_t i = 0; i < unknowns; i++)
-            product += known[i] * next[i];
+        const double product = product_of(updated, known, next);
         for (size_t i = 0; i < unknowns; i++)
             next[i] -= product * known[i];
         work->projected[j][n - 1] = product;
     }
-    const double rest = norm(next, unknowns);
+    const double rest = sqrt(product_of(updated, next, next));
     work->projected[n][n - 1] = rest;
     for (size_t i = 0; i < unknowns && rest > 0; i++)
         next[i] /= rest;
@@ -142,11 +147,14 @@ static double iterate(struct updated *updated, struct iteration *work,
     const size_t unknowns = updated->model.unknowns;
     uint64_t seed = 2016;
     double *first = work->basis, theta = 0, residual = 0, part[STEPS] = {0};
+    const size_t before = (size_t)updated->dimension * updated->first; /* numbers of the body */
+    for (size_t i = 0; i < before; i++)
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
     for (size_t i = 0; i < unknowns; i++) {
         seed = seed * 6364136223846793005u + 1442695040888963407u;
         first[i] = (double)(seed >> 11) * 0x1p-52 - 1;
     }
-    const double length = norm(first, unknowns);
+    const double length = sqrt(product_of(updated, first, first));
     for (size_t i = 0; i < unknowns; i++)
         first[i] /= length;
     memset(work->projected, 0, sizeof work->projected);
@@ -154,11 +162,11 @@ static double iterate(struct updated *updated, struct iteration *work,
     for (bool done = false; n < STEPS && !done;) {
         memcpy(work->vector, work->basis + unknowns * n, unknowns * sizeof *work->vector);
         map(updated, work);
-        project(work, unknowns, ++n);
+        project(updated, work, ++n);
         if (!isfinite(work->projected[n][n - 1])) return 0;
         const bool exhausted = !(work->projected[n][n - 1] > 1e-12 * fabs(work->projected[0][0]));
         if (!exhausted && n % CHECK != 0) continue;
-        work->room = work->room && largest_ritz(work, n, &theta, &residual, part);
+        work->room = updated_all_have(updated, largest_ritz(work, n, &theta, &residual, part));
         done = exhausted || !work->room || residual < ENOUGH * theta;
     }
     memset(work->vector, 0, unknowns * sizeof *work->vector);
@@ -173,12 +181,9 @@ static double quotient(struct updated *updated, struct iteration *work)
 {
     const size_t unknowns = updated->model.unknowns;
     viscous_map(updated, work);
-    double product = 0, square = 0;
-    for (size_t i = 0; i < unknowns; i++) {
-        product -= work->vector[i] * work->dydt[unknowns + i];
-        square += work->vector[i] * work->vector[i];
-    }
-    return square > 0 ? product / square : 0;
+    const double product = product_of(updated, work->vector, work->dydt + unknowns);
+    const double square = product_of(updated, work->vector, work->vector);
+    return square > 0 ? -product / square : 0;
 }
 
 static void measure(struct updated *updated, struct iteration *work, struct spectrum *spectrum)
@@ -209,7 +214,8 @@ selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, st
                              .y = array_new(model->state_size, sizeof(double)),
                              .dydt = array_new(model->state_size, sizeof(double)),
                              .basis = array_new(model->unknowns, (STEPS + 1) * sizeof(double))};
-    work.room = work.vector != NULL && work.y != NULL && work.dydt != NULL && work.basis != NULL;
+    work.room = updated_all_have(updated_of(model), work.vector != NULL && work.y != NULL &&
+                                                        work.dydt != NULL && work.basis != NULL);
     *spectrum = (struct spectrum){0};
     if (work.room) measure(updated_of(model), &work, spectrum);
     array_free(work.vector);
@@ -219,31 +225,57 @@ selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, st
     return work.room ? SELAS_OK : fail(messages, SELAS_NO_MEMORY, "no memory to measure the spectrum");
 }
 
+/* As cloud_mean_power() of the body. */
+double updated_mean_power(const struct updated *updated, double order)
+{
+    struct ranks *ranks = updated->part.ranks;
+    const struct cloud *cloud = updated->cloud;
+    double sums[2] = {0};
+    for (int r = 0; r < ranks_count(ranks); r++) {
+        for (size_t i = updated->made; r == ranks_me(ranks) && i < updated->made + updated->own; i++) {
+            const double spacing = pow(cloud->volume[i], 1.0 / cloud->dimension);
+            sums[0] += cloud->volume[i] * pow(spacing / cloud->spacing, order);
+            sums[1] += cloud->volume[i];
+        }
+        ranks_spread(ranks, r, sums, sizeof sums);
+    }
+    return sums[0] / sums[1];
+}
+
+/* Of the k-th own particle, from its acceleration. */
+static void add_disorder(const struct updated *updated, const double *acceleration, size_t k, double sums[2])
+{
+    const struct cloud *cloud = updated->cloud;
+    const size_t i = updated->made + k;
+    const double each = updated->material->density * pow(cloud->volume[i], 1.0 / updated->dimension);
+    double force[3] = {0};
+    for (size_t a = 0; a < (size_t)updated->dimension; a++)
+        force[a] = each * acceleration[a];
+    disorder_add(sums, cloud, &updated->model.scene->body, updated->reach, i, force);
+}
+
 /* By the rates themselves, under a unit pull on all sides. */
 selas_status updated_disorder(struct updated *updated, double *disorder, struct messages *messages)
 {
     struct model *model = &updated->model;
-    const struct cloud *cloud = updated->cloud;
     const size_t dimension = (size_t)updated->dimension, stresses = (size_t)updated->stresses;
     const bool repulsive = updated->repulsive;
     const unsigned long evaluations = model->evaluations;
-    double *stress = array_new(stresses * cloud->points, sizeof *stress), sums[2] = {0};
+    double *stress = array_new(stresses * updated->held, sizeof *stress), sums[2] = {0};
     struct iteration work = {.y = array_new(model->state_size, sizeof(double)),
                              .dydt = array_new(model->state_size, sizeof(double))};
-    work.room = stress != NULL && work.y != NULL && work.dydt != NULL;
-    for (size_t i = 0; work.room && i < cloud->points; i++)
+    work.room = updated_all_have(updated, stress != NULL && work.y != NULL && work.dydt != NULL);
+    for (size_t i = 0; work.room && i < updated->held; i++)
         for (size_t a = 0; a < dimension; a++)
             stress[stresses * i + (size_t)updated_component[dimension][a][a]] = 1;
     updated->repulsive = false;
     if (work.room) evaluate(updated, &work, NULL, stress);
     updated->repulsive = repulsive;
     model->evaluations = evaluations;
-    for (size_t i = 0; work.room && i < cloud->points; i++) {
-        const double each = updated->material->density * pow(cloud->volume[i], 1.0 / updated->dimension);
-        double force[3] = {0};
-        for (size_t a = 0; a < dimension; a++)
-            force[a] = each * work.dydt[model->unknowns + dimension * i + a];
-        disorder_add(sums, cloud, &model->scene->body, updated->reach, i, force);
+    for (int r = 0; work.room && r < ranks_count(updated->part.ranks); r++) {
+        for (size_t k = 0; r == ranks_me(updated->part.ranks) && k < updated->own; k++)
+            add_disorder(updated, work.dydt + model->unknowns + dimension * (updated->lead + k), k, sums);
+        ranks_spread(updated->part.ranks, r, sums, sizeof sums);
     }
     *disorder = disorder_mean(sums, updated->dimension);
     array_free(stress);

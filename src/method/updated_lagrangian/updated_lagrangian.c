@@ -3,6 +3,7 @@
 #include "method/updated_lagrangian/updated_lagrangian.h"
 
 #include "base/memory.h"
+#include "base/vectors.h"
 
 #include <math.h>
 #include <string.h>
@@ -113,7 +114,7 @@ static void choose_lengths(struct updated *updated)
     const double spacing = updated->cloud->spacing;
     updated->smoothing_length = options->smoothing_length * spacing;
     updated->reach = options->kernel->support * updated->smoothing_length;
-    updated->skin = .15 * spacing;
+    updated->skin = UPDATED_SKIN * spacing;
     const double shape = 6 * options->kernel->shape(updated->dimension, 1 / options->smoothing_length);
     updated->repulsion_scale = 1 / (shape * shape * shape * shape);
     const double h = updated->smoothing_length;
@@ -156,13 +157,24 @@ static selas_status choose_own_lengths(struct updated *updated, struct messages 
     return status;
 }
 
+/* Neighbours at rest, of the particles in groups of eight that begin with own ones. */
+static selas_status find_first(struct updated *updated, struct messages *messages)
+{
+    const size_t places = updated->points + updated->ghosts, end = updated->from + updated->own + GROUP - 1;
+    memcpy(updated->searched, updated->reference, 3 * places * sizeof(double));
+    return neighbours_find_some(&updated->neighbours, updated->dimension, places, updated->searched,
+                                updated->longest * updated->reach + updated->skin, updated->from,
+                                end < updated->points ? end : updated->points, messages);
+}
+
+/* Of the particles of the cloud. */
 static selas_status take_memory(struct updated *updated, struct messages *messages)
 {
     const struct scene *scene = updated->model.scene;
-    const size_t points = updated->cloud->points, places = points + updated->ghosts;
+    const size_t points = updated->points, places = points + updated->ghosts;
     updated->mass = array_new(points, sizeof(double));
     updated->searched = array_new(3 * places, sizeof(double));
-    updated->deck_position = array_new(3 * points, sizeof(double));
+    updated->deck_position = array_new(updated->part.planes ? 0 : 3 * points, sizeof(double));
     updated->load_direction = array_new(3 * scene->loads, sizeof(double));
     if (updated->mass == NULL || updated->searched == NULL || updated->deck_position == NULL ||
         updated->load_direction == NULL)
@@ -170,19 +182,15 @@ static selas_status take_memory(struct updated *updated, struct messages *messag
                     updated->ghosts);
     for (size_t i = 0; i < points; i++) {
         updated->mass[i] = updated->material->density * updated->cloud->volume[i];
-        body_to_deck(&scene->body, updated->cloud->position + 3 * i, updated->deck_position + 3 * i);
+        if (!updated->part.planes)
+            body_to_deck(&scene->body, updated->cloud->position + 3 * i, updated->deck_position + 3 * i);
     }
     for (size_t k = 0; k < scene->loads; k++) {
         body_direction_from_deck(&scene->body, scene->load[k].direction, updated->load_direction + 3 * k);
         for (size_t a = 0; a < 3; a++)
             updated->load_direction[3 * k + a] *= scene->load[k].amplitude;
     }
-    memcpy(updated->searched, updated->reference, 3 * places * sizeof(double));
-    const selas_status status =
-        neighbours_find(&updated->neighbours, updated->dimension, places, updated->searched,
-                        updated->longest * updated->reach + updated->skin, false, messages);
-    const selas_status told = status == SELAS_OK ? updated_warn_of_gaps(updated, messages) : status;
-    return told == SELAS_OK ? updated_choose_order(updated, messages) : told;
+    return find_first(updated, messages);
 }
 
 static void destroy(struct model *model)
@@ -206,26 +214,35 @@ static void destroy(struct model *model)
     array_free(updated);
 }
 
+static size_t bytes_of(const struct updated *updated)
+{
+    const size_t places = updated->points + updated->ghosts;
+    return neighbours_bytes(&updated->neighbours) +
+           places * 6 * sizeof(double) + updated->ghosts * sizeof *updated->ghost +
+           updated->layout.size * sizeof(double) * (updated->ordered ? updated->stride : places) +
+           updated->shift_room * sizeof *updated->shift + updated->points * 2 * sizeof(double) +
+           updated->cloud->points * (updated->part.planes ? 5 : 8) * sizeof(double) +
+           updated_hourglass_bytes(updated) + updated_window_bytes(updated);
+}
+
 static void fill_public_face(struct updated *updated)
 {
     struct model *model = &updated->model;
-    const size_t points = updated->cloud->points, dimension = (size_t)updated->dimension;
-    model->points = points;
-    model->position = updated->deck_position;
+    const size_t dimension = (size_t)updated->dimension;
+    model->points = updated->cloud->whole;
+    if (updated->part.planes)
+        model->place = cloud_place;
+    else
+        model->position = updated->deck_position;
+    if (updated->part.ranks != NULL) model->whole_unknowns = dimension * model->points;
     memcpy(model->grid, updated->cloud->grid, sizeof model->grid);
-    model->unknowns = dimension * points;
-    model->state_size = (2 * dimension + 1 + (size_t)updated->stresses) * points;
     model->component_stride = 1;
     model->point_stride = dimension;
     model->damped = updated->alpha > 0 || updated->beta > 0;
     for (int face = 0; face < 2 * updated->dimension; face++)
         model->level_images = model->level_images || updated->wall[face] == WALL_TRACTION;
     model->frame = model->scene->body.rotated ? model->scene->body.frame : NULL;
-    model->bytes = neighbours_bytes(&updated->neighbours) + (points + updated->ghosts) * 6 * sizeof(double) +
-                   updated->layout.size * sizeof(double) *
-                       (updated->ordered ? updated->stride : points + updated->ghosts) +
-                   updated->shift_room * sizeof *updated->shift + points * 8 * sizeof(double) +
-                   updated_hourglass_bytes(updated);
+    model->bytes = bytes_of(updated);
 }
 
 /* From here on it is what waves err by, and holds motions that alternate from particle to particle. */
@@ -242,7 +259,7 @@ static struct wave_law waves_of(const struct updated *updated, double disorder)
     const double scatter = 50 / (1 + 10 * options->hourglass) * disorder / updated->dimension;
     const bool thick = options->alpha >= ENOUGH_VISCOSITY;
     const int order = thick ? 1 : 2;
-    const double coarser = cloud_mean_power(updated->cloud, order);
+    const double coarser = updated_mean_power(updated, order);
     return (struct wave_law){.constant = coarser * (thick ? 1.3 + 1.55 * options->alpha : 44 * lost),
                              .order = order,
                              .sent = coarser * (thick ? 1.7 + 2 * options->alpha : 86 * lost),
@@ -254,11 +271,10 @@ static struct wave_law waves_of(const struct updated *updated, double disorder)
                              .bare = .94 * options->smoothing_length}; /* (U14) */
 }
 
-static selas_status build(struct updated *updated, struct messages *messages)
+/* The particles of the cloud at rest, and their neighbours. */
+static selas_status lay_out(struct updated *updated, struct messages *messages)
 {
-    const size_t points = updated->cloud->points;
-    choose_layout(updated);
-    choose_lengths(updated);
+    const size_t points = updated->points;
     selas_status status = check_scene(updated, messages);
     if (status != SELAS_OK) return status;
     updated->reference = array_new(3 * points, sizeof(double));
@@ -266,13 +282,49 @@ static selas_status build(struct updated *updated, struct messages *messages)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
     memcpy(updated->reference, updated->cloud->position, 3 * points * sizeof(double));
     status = check_forces(updated, messages);
-    if (status != SELAS_OK) return status;
-    status = choose_own_lengths(updated, messages);
+    if (status == SELAS_OK) status = choose_own_lengths(updated, messages);
     if (status == SELAS_OK) status = updated_ghosts_create(updated, messages);
     if (status == SELAS_OK) status = take_memory(updated, messages);
-    if (status == SELAS_OK) status = updated_share(updated, messages);
+    return status;
+}
+
+/* Together: what the particles of all have, and those that this rank goes on with. */
+static selas_status meet(struct updated *updated, struct messages *messages)
+{
+    struct model *model = &updated->model;
+    const size_t dimension = (size_t)updated->dimension;
+    selas_status status = updated_warn_of_gaps(updated, messages);
+    if (status == SELAS_OK) status = updated_choose_order(updated, messages);
+    status = updated_agree(updated, status, messages);
+    if (status != SELAS_OK) return status;
+    for (size_t g = 0; g < updated->ghosts; g++)
+        updated->images += updated_owns(updated, updated->ghost[g].source);
+    ranks_sum(updated->part.ranks, 1, &updated->images);
+    updated_share(updated);
+    model->unknowns = dimension * updated->held;
+    model->state_size = (2 * dimension + 1 + (size_t)updated->stresses) * updated->held;
+    if (updated->part.ranks != NULL) {
+        model->setup_bytes = bytes_of(updated);
+        updated->part.length = updated->length;
+        updated->length = NULL;
+        if (!updated_meet(updated)) return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
+        status = updated_find_neighbours(updated, messages);
+    }
     if (status == SELAS_OK && (updated->options.hourglass > 0 || updated->options.adjoint))
         status = updated_hourglass_new(updated, messages);
+    status = updated_agree(updated, status, messages);
+    if (status == SELAS_OK) updated_look_ahead(updated);
+    return status;
+}
+
+static selas_status build(struct updated *updated, struct messages *messages)
+{
+    choose_layout(updated);
+    selas_status status = updated_make_points(updated, messages);
+    if (status != SELAS_OK) return status;
+    choose_lengths(updated);
+    status = updated_agree(updated, lay_out(updated, messages), messages);
+    if (status == SELAS_OK) status = meet(updated, messages);
     if (status != SELAS_OK) return status;
     fill_public_face(updated);
     double disorder = 0;
@@ -283,17 +335,12 @@ static selas_status build(struct updated *updated, struct messages *messages)
     return status;
 }
 
-static const struct model_core core = {
-    .destroy = destroy,
-    .initialise = updated_initialise,
-    .probe = updated_probe,
-    .observe = updated_observe,
-    .field = updated_field,
-    .energy = updated_energy,
-    .power = updated_power,
-    .unseen = updated_unseen,
-    .describe = updated_describe,
-};
+#define CORE                                                                                                 \
+    .destroy = destroy, .initialise = updated_initialise, .probe = updated_probe, .observe = updated_observe,  \
+    .field = updated_field, .energy = updated_energy, .power = updated_power, .unseen = updated_unseen,        \
+    .describe = updated_describe
+static const struct model_core core = {CORE};
+static const struct model_core shared_core = {CORE, .holder = updated_holder, .share = updated_spread};
 static const struct model_operator spatial = {.rate = updated_rate, .spectrum = updated_spectrum};
 
 selas_status updated_lagrangian_new(const struct scene *scene, const struct updated_options *options,
@@ -306,7 +353,7 @@ selas_status updated_lagrangian_new(const struct scene *scene, const struct upda
         return fail(messages, SELAS_NO_MEMORY, "no memory for the method");
     }
     updated->model.method = &method_updated_lagrangian;
-    updated->model.core = &core;
+    updated->model.core = ranks_count(scene->ranks) > 1 ? &shared_core : &core;
     updated->model.patch = PATCH_BY_CELLS;
     updated->model.spatial = &spatial;
     updated->model.scene = scene;
@@ -361,10 +408,7 @@ static selas_status create(const struct scene *scene, struct model **model, stru
         options.hourglass = real_or(group, "hourglass", options.hourglass);
         options.jaumann = logical_or(group, "jaumann", options.jaumann);
     }
-    struct cloud *cloud = NULL;
-    const selas_status status = cloud_create(scene, &cloud, messages);
-    if (status != SELAS_OK) return status;
-    return updated_lagrangian_new(scene, &options, cloud, model, messages);
+    return updated_lagrangian_new(scene, &options, NULL, model, messages);
 }
 
 const struct method method_updated_lagrangian = {
