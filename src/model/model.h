@@ -251,7 +251,6 @@ struct model {
     size_t grid[3];        /* points per axis if they form a lattice (x fastest), else 0, 0, 0 */
     size_t unknowns;       /* numbers in u */
     size_t whole_unknowns; /* those of all ranks together; 0: one alone */
-    bool replicated;       /* each rank has the state of the whole body: they share the work alone */
     size_t state_size;     /* numbers in y */
     size_t component_stride, point_stride;
     size_t bytes;       /* memory held by the model */

@@ -118,7 +118,7 @@ static void name_place(const struct recorder *recorder, const struct state *stat
     const struct model *model = recorder->model;
     struct found found;
     text[0] = '\0';
-    if (ranks_count(recorder->scene->ranks) > 1 && !model->replicated) {
+    if (ranks_count(recorder->scene->ranks) > 1) {
         name_rank(recorder, state, size, text);
         return;
     }

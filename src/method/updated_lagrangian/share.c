@@ -171,19 +171,6 @@ static void widen_to(const struct updated *updated, const double position[3], si
     messages_free(&unheard);
 }
 
-/* Adds planes within reach of the own particles where places all over a lattice are watched (record/hindsight.c). */
-static void widen_by_reach(const struct updated *updated, size_t range[2])
-{
-    const struct scene *scene = updated->model.scene;
-    const size_t whole = updated->cloud->whole;
-    size_t grid[3];
-    if (!cloud_in_planes(scene, grid)) return;
-    const size_t plane = whole / grid[scene->dimension - 1];
-    const size_t more = plane * planes_within(scene, grid, updated->reach);
-    range[0] -= range[0] < more ? range[0] : more;
-    range[1] += whole - range[1] < more ? whole - range[1] : more;
-}
-
 void updated_share(struct updated *updated)
 {
     struct updated_part *part = &updated->part;
@@ -191,7 +178,6 @@ void updated_share(struct updated *updated)
     const size_t own = updated->first;
     size_t range[2] = {own, own + updated->own};
     if (part->ranks == NULL) return;
-    if (part->planes && (updated->pressed || scene_has_exact(scene))) widen_by_reach(updated, range);
     for (size_t k = 0; k < scene->receivers; k++)
         widen_to(updated, scene->receiver[k].position, range);
     for (size_t p = 0; p < scene->profiles; p++)
@@ -310,8 +296,11 @@ void updated_describe_part(const struct updated *updated,
     for (size_t r = 0; r < ranks && (size_t)used + 24 < sizeof text; r++)
         used += snprintf(text + used, sizeof text - (size_t)used, " %zu", part->bound[r + 1] - part->bound[r]);
     tell(context, "ranks", text);
-    snprintf(text, sizeof text, "%zu by the first rank in each evaluation",
-             numbers_sent(updated, &messages) * sizeof(double));
+    size_t met = 0;
+    for (size_t r = 0; r < ranks; r++)
+        met += part->with[r].gives;
+    snprintf(text, sizeof text, "%zu by the first rank in each evaluation (%zu of its particles, which others may meet)",
+             numbers_sent(updated, &messages) * sizeof(double), met);
     tell(context, "halo bytes a step", text);
     snprintf(text, sizeof text, "with %g ns a neighbour, %g ns a particle", NEIGHBOUR * 1e9, PARTICLE * 1e9);
     ranks_tell_outlook(&part->outlook, text, tell, context);

@@ -3,7 +3,6 @@
  * another one's box, or whose ghosts do. What comes stands in the order of the body, so that own particles sum over
  * their neighbours in the order of one process. */
 #include "base/memory.h"
-#include "base/vectors.h"
 #include "method/updated_lagrangian/updated_lagrangian.h"
 
 #include <math.h>
@@ -106,8 +105,8 @@ static bool near_box(const double box[6], double radius, const double *place)
     return within;
 }
 
-/* Together: boxes of all. */
-static void share_boxes(const struct updated *updated)
+/* Together: boxes of all; `mine` holds the ghosts of own particles, too. */
+static void share_boxes(const struct updated *updated, double mine[6])
 {
     const struct updated_part *part = &updated->part;
     const size_t ranks = (size_t)ranks_count(part->ranks), me = (size_t)ranks_me(part->ranks);
@@ -115,15 +114,30 @@ static void share_boxes(const struct updated *updated)
         part->box[k] = -INFINITY;
     for (size_t i = updated->from; i < updated->from + updated->own; i++)
         widen(part->box + 6 * me, updated->searched + 3 * i);
+    memcpy(mine, part->box + 6 * me, 6 * sizeof *mine);
+    for (size_t g = 0; g < updated->ghosts; g++)
+        if (updated_owns(updated, updated->ghost[g].source))
+            widen(mine, updated->searched + 3 * (updated->points + g));
     ranks_largest(part->ranks, 6 * ranks, part->box);
 }
 
+static bool boxes_are_near(const double a[6], const double b[6], double radius)
+{
+    bool within = true;
+    for (size_t c = 0; c < 6; c += 2)
+        within = within && -a[c] <= b[c + 1] + radius && -b[c] <= a[c + 1] + radius;
+    return within;
+}
+
 /* Lists the own particles that a rank gets. */
-static bool choose(const struct updated *updated, const double box[6], struct updated_partner *with)
+static bool choose(const struct updated *updated, const double mine[6], const double box[6],
+                   struct updated_partner *with)
 {
     const size_t places = updated->points + updated->ghosts, own = updated->own;
     const double radius = (1 + 1e-9) * search_radius(updated);
     size_t count = 0;
+    with->gives = 0;
+    if (!boxes_are_near(mine, box, radius)) return true;
     unsigned char *met = array_new(own, 1);
     if (met == NULL) return false;
     for (size_t i = 0; i < places; i++) {
@@ -137,7 +151,6 @@ static bool choose(const struct updated *updated, const double box[6], struct up
         with->give = array_new(count, sizeof *with->give);
         with->room = with->give != NULL ? count : 0;
     }
-    with->gives = 0;
     for (size_t k = 0; k < own && count <= with->room; k++)
         if (met[k] != 0) with->give[with->gives++] = (uint32_t)k;
     array_free(met);
@@ -241,9 +254,10 @@ bool updated_meet(struct updated *updated)
     struct updated_part *part = &updated->part;
     bool room = true;
     if (part->ranks == NULL) return true;
-    share_boxes(updated);
+    double mine[6];
+    share_boxes(updated, mine);
     for (int r = 0; r < ranks_count(part->ranks); r++)
-        if (r != ranks_me(part->ranks)) room = choose(updated, part->box + 6 * r, &part->with[r]) && room;
+        if (r != ranks_me(part->ranks)) room = choose(updated, mine, part->box + 6 * r, &part->with[r]) && room;
     count_particles(updated);
     room = updated_all_have(updated, make_room(updated) && room);
     if (room) share_lasting(updated);
