@@ -16,6 +16,7 @@
 #include "model/spread.h"
 #include "scene/scene.h"
 
+#include <math.h>
 #include <stdint.h>
 
 /* Amplitudes that drive the model at one instant; the stepping scheme fills them (so it may take differences
@@ -290,6 +291,21 @@ static inline void model_complete(struct model *model, double *y, double *a)
     model->core->complete(model, a);
     for (size_t k = 0; k + model->unknowns <= model->state_size; k += model->unknowns)
         model->core->complete(model, y + k);
+}
+
+/* Points about which a run looks for rotations (record/hindsight.c), of a model with exact values to compare with or
+ * one that takes rotations for small: evenly spread, along no row of a lattice. */
+enum { MODEL_WATCHED = 64 };
+static inline bool model_is_watched(const struct model *model)
+{
+    return model->scene->dimension > 1 && model->scene->body.shape != BODY_HALF_SPACE &&
+           (model->small_strain || model->level_images || scene_has_exact(model->scene));
+}
+
+static inline size_t model_watched(size_t points, size_t k)
+{
+    const double part = fmod(0.618034 * ((double)k + 0.5), 1.0);
+    return (size_t)(part * (double)points);
 }
 
 /* Frees the model and sets the pointer to NULL. */

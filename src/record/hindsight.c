@@ -15,7 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PLACES = 64, LOOKS = 100 };
+enum { LOOKS = 100 };
 static const double few_degrees = 0.05, above_strain = 3.0;
 /* Of the energy that was given; springs to the ground left .35 to .71, without them it was .89 to 1. */
 static const double most_of_it = 0.8;
@@ -44,18 +44,15 @@ static bool beside_point(const struct scene *scene, double wavelength, const dou
 selas_status hindsight_create(struct recorder *recorder, struct messages *messages)
 {
     struct model *model = recorder->model;
-    if (recorder->scene->dimension < 2 || recorder->scene->body.shape == BODY_HALF_SPACE ||
-        (!model->small_strain && !model->level_images && !scene_has_exact(recorder->scene)))
-        return SELAS_OK;
+    if (!model_is_watched(model)) return SELAS_OK;
     const double wavelength = points_per_wavelength(recorder->scene) * recorder->scene->body.spacing;
-    recorder->place = array_new(PLACES, sizeof *recorder->place);
+    recorder->place = array_new(MODEL_WATCHED, sizeof *recorder->place);
     if (recorder->place == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for the watch over rotations");
-    for (size_t k = 0; k < PLACES; k++) {
-        const double part = fmod(0.618034 * ((double)k + 0.5), 1.0); /* evenly, along no row of a lattice */
+    for (size_t k = 0; k < MODEL_WATCHED; k++) {
         double position[3];
         struct messages unsaid = {0};
-        model_position(model, (size_t)(part * (double)model->points), position);
+        model_position(model, model_watched(model->points, k), position);
         if (beside_point(recorder->scene, wavelength, position)) continue;
         const selas_status status =
             model->core->probe(model, position, &recorder->place[recorder->places], &unsaid);

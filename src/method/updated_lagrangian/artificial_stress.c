@@ -33,8 +33,8 @@ INLINED void in_the_plane(double epsilon, const lanes *t, lanes *r)
     r[2] = difference * t[2];
 }
 
-/* One Jacobi rotation of a in the plane (p, q), in the lanes that turn, gathered in v: t = tan of the angle is the smaller root of
- * t^2 + 2 theta t = 1, theta = (a_qq - a_pp) / (2 a_pq), here without dividing by a_pq. */
+/* One Jacobi rotation of a in the plane (p, q), in the lanes that turn, gathered in v: t = tan of the angle is the
+ * smaller root of t^2 + 2 theta t = 1, theta = (a_qq - a_pp) / (2 a_pq), here without dividing by a_pq. */
 INLINED void rotate(lanes a[3][3], lanes v[3][3], const lanes_mask *turns, const int p, const int q)
 {
     const int k = 3 - p - q; /* the third axis */

@@ -143,7 +143,8 @@ void updated_field(struct model *model, selas_field field, const double *y, cons
  * shows; it is not finite, or overflows, at first. */
 static double look_at(const struct updated *updated, const double *y, size_t row, double *all)
 {
-    const size_t d = (size_t)updated->dimension, stresses = (size_t)updated->stresses, unknowns = updated->model.unknowns;
+    const size_t d = (size_t)updated->dimension, stresses = (size_t)updated->stresses,
+                 unknowns = updated->model.unknowns;
     const double *u = y + d * row, *v = u + unknowns, density = y[2 * unknowns + row],
                  *stress = y + stress_offset(updated) + stresses * row;
     double square = 0;
@@ -191,7 +192,8 @@ void updated_energy(struct model *model, const double *y, struct energy *energy)
     const double *density = y + 2 * model->unknowns;
     double sum[2] = {0}; /* kinetic, strain */
     for (size_t i = updated->lead; i < updated->lead + updated->own; i++) {
-        const double mass = updated->material->density * updated->cloud->volume[i - updated->lead + updated->made];
+        const double mass =
+            updated->material->density * updated->cloud->volume[i - updated->lead + updated->made];
         const double *v = y + model->unknowns + dimension * i,
                      *stress = y + stress_offset(updated) + stresses * i;
         double gradient[9], work = 0, square = 0;

@@ -236,7 +236,7 @@ static void repel_ghost(const struct updated *updated, size_t g)
     }
 }
 
-static void load_particle(const struct updated *updated, const double *y, size_t i, struct image *image)
+INLINED void load_particle(const struct updated *updated, const double *y, size_t i, struct image *image)
 {
     const size_t dimension = (size_t)updated->dimension, stresses = (size_t)updated->stresses,
                  unknowns = updated->model.unknowns;
@@ -315,7 +315,8 @@ static void search(struct updated *updated, const struct drive *drive, const dou
         fill_places(updated, drive, y);
         keep_places(updated);
     }
-    updated->search_failed = !updated_all_have(updated, updated_find_neighbours(updated, &unheard) == SELAS_OK);
+    updated->search_failed =
+        !updated_all_have(updated, updated_find_neighbours(updated, &unheard) == SELAS_OK);
     if (!updated->search_failed) updated_look_ahead(updated);
     messages_free(&unheard);
 }
@@ -333,7 +334,6 @@ void updated_fill(struct updated *updated, const struct drive *drive, const doub
     if (updated_search_is_due(updated)) search(updated, drive, y);
 }
 
-
 double updated_power_of_faces(const struct updated *updated, const struct drive *drive, const double *y,
                               double *absorbed)
 {
@@ -344,8 +344,8 @@ double updated_power_of_faces(const struct updated *updated, const struct drive 
         const size_t face = ghost->face[0], i = ghost->source;
         const size_t axis = (size_t)face_axis((enum face)face);
         if (!updated_owns(updated, i)) continue;
-        const double depth = fabs(updated->reference[3 * (updated->points + g) + axis] -
-                                  updated->reference[3 * i + axis]);
+        const double depth =
+            fabs(updated->reference[3 * (updated->points + g) + axis] - updated->reference[3 * i + axis]);
         const double volume = updated_volume(updated, i), spacing = pow(volume, 1.0 / updated->dimension);
         if (ghost->count > 1 || depth > 1.5 * spacing) continue; /* not the outermost */
         const double area = volume / spacing;

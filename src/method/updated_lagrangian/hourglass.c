@@ -87,8 +87,8 @@ size_t updated_hourglass_bytes(const struct updated *updated)
 {
     if (updated->hourglass == NULL) return 0;
     const size_t dimension = (size_t)updated->dimension;
-    return sizeof(double) * ((updated->points + updated->ghosts) * dimension * (2 + 3 * dimension) +
-                             updated->hourglass->room);
+    return sizeof(double) *
+           ((updated->points + updated->ghosts) * dimension * (2 + 3 * dimension) + updated->hourglass->room);
 }
 
 /* What the control acts on: the displacement, or the velocity while the spectrum is measured at rest. */

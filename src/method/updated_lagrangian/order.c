@@ -30,8 +30,8 @@ static size_t reachable(const struct updated *updated, size_t i, size_t k)
     return k;
 }
 
-/* Merges the lists of particles i ... last - 1, at most eight, into ascending distances in memory; returns how many. Adds the
- * number of pairs to *pairs. */
+/* Merges the lists of particles i ... last - 1, at most eight, into ascending distances in memory; returns how
+ * many. Adds the number of pairs to *pairs. */
 static uint32_t merge(const struct updated *updated, size_t i, size_t last, size_t *pairs)
 {
     const struct neighbours *near = &updated->neighbours;
@@ -67,7 +67,8 @@ static selas_status merge_all(struct updated *updated, size_t from, size_t end, 
         updated->shift = array_new(updated->shift_room, sizeof *updated->shift);
         if (updated->shift == NULL) {
             updated->shift_room = 0;
-            return fail(messages, SELAS_NO_MEMORY, "no memory for the neighbours of %zu particles", end - from);
+            return fail(messages, SELAS_NO_MEMORY, "no memory for the neighbours of %zu particles",
+                        end - from);
         }
     }
     size_t pairs = 0;
@@ -102,7 +103,8 @@ selas_status updated_take_packed(struct updated *updated, struct messages *messa
     double **const packed = updated->ordered ? &updated->planes : &updated->record;
     updated->stride = (places + 4 * GROUP - 1) / GROUP * GROUP;
     array_free(*packed);
-    *packed = array_new(updated->layout.size * (updated->ordered ? updated->stride : places), sizeof **packed);
+    *packed =
+        array_new(updated->layout.size * (updated->ordered ? updated->stride : places), sizeof **packed);
     if (*packed == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", updated->points);
     if (updated->ordered) fill_ends(updated);

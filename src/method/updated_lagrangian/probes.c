@@ -119,7 +119,8 @@ static selas_status see_walls(const struct updated *updated, const double place[
 }
 
 /* The particles of the cloud and their ghosts in place of those here. */
-static selas_status all_at_rest(const struct updated *updated, struct updated *rest, struct messages *messages)
+static selas_status all_at_rest(const struct updated *updated, struct updated *rest,
+                                struct messages *messages)
 {
     const size_t points = updated->cloud->points;
     *rest = *updated;
@@ -127,7 +128,8 @@ static selas_status all_at_rest(const struct updated *updated, struct updated *r
     rest->ghosts = 0;
     rest->ghost = NULL;
     rest->reference = array_new(3 * points, sizeof *rest->reference);
-    if (rest->reference == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
+    if (rest->reference == NULL)
+        return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
     memcpy(rest->reference, updated->cloud->position, 3 * points * sizeof *rest->reference);
     return updated_ghosts_create(rest, messages);
 }
@@ -212,8 +214,8 @@ selas_status updated_probe(struct model *model, const double position[3], struct
     body_from_deck(&model->scene->body, position, place);
     const int holder = updated->part.ranks != NULL ? updated_owner(updated, place) : 0;
     const bool here = holder == ranks_me(updated->part.ranks);
-    selas_status status = here ? probe_at_rest(updated, place, probe, &faces, messages)
-                               : probe_allocate(probe, 0, messages);
+    selas_status status =
+        here ? probe_at_rest(updated, place, probe, &faces, messages) : probe_allocate(probe, 0, messages);
     if (status != SELAS_OK) return status;
     memcpy(probe->position, position, sizeof probe->position);
     probe->material = updated->material;

@@ -30,7 +30,8 @@ void updated_invert(int dimension, const double matrix[6], double inverse[3][3])
 
 static void all_rates(const struct updated *updated, const double *y, double *dydt)
 {
-    const size_t end = updated->from + updated->own, blocks = (updated->own + UPDATED_BLOCK - 1) / UPDATED_BLOCK;
+    const size_t end = updated->from + updated->own,
+                 blocks = (updated->own + UPDATED_BLOCK - 1) / UPDATED_BLOCK;
 #pragma omp parallel for schedule(static) if (updated->own >= UPDATED_PARALLEL)
     for (size_t block = 0; block < blocks; block++) {
         const size_t first = updated->from + UPDATED_BLOCK * block;

@@ -70,7 +70,8 @@ static double plane_step(const struct scene *scene, const size_t grid[3])
 /* Planes over the last axis within a radius of one. */
 static size_t planes_within(const struct scene *scene, const size_t grid[3], double radius)
 {
-    return 1 + (size_t)ceil((radius + 2 * scene->body.jitter * scene->body.spacing) / plane_step(scene, grid));
+    return 1 +
+           (size_t)ceil((radius + 2 * scene->body.jitter * scene->body.spacing) / plane_step(scene, grid));
 }
 
 /* Makes the planes of the own particles, and those beside them that hold neighbours at rest of these and of the seven
@@ -81,13 +82,15 @@ static selas_status make_planes(struct updated *updated, const size_t grid[3], s
     const struct updated_part *part = &updated->part;
     const size_t last = grid[scene->dimension - 1], plane = grid[0] * grid[1] * grid[2] / last,
                  me = (size_t)ranks_me(part->ranks);
-    const double reach = updated->options.kernel->support * updated->options.smoothing_length * scene->body.spacing;
-    const bool seen = scene->receivers + scene->profiles > 0;
-    const size_t beside = planes_within(scene, grid, (seen ? 1.75 : 1) * reach + UPDATED_SKIN * scene->body.spacing) +
-                          cloud_margin(scene);
+    const double reach =
+        updated->options.kernel->support * updated->options.smoothing_length * scene->body.spacing;
+    const bool seen = scene->receivers + scene->profiles > 0 || model_is_watched(&updated->model);
+    const size_t beside =
+        planes_within(scene, grid, (seen ? 1.75 : 1) * reach + UPDATED_SKIN * scene->body.spacing) +
+        cloud_margin(scene);
     const size_t from = part->bound[me] / plane, end = (part->bound[me + 1] + GROUP - 2) / plane + 1 + beside;
-    return cloud_create_planes(scene, from > beside ? from - beside : 0, end < last ? end : last, &updated->cloud,
-                               messages);
+    return cloud_create_planes(scene, from > beside ? from - beside : 0, end < last ? end : last,
+                               &updated->cloud, messages);
 }
 
 selas_status updated_make_points(struct updated *updated, struct messages *messages)
@@ -155,8 +158,8 @@ int updated_owner(const struct updated *updated, const double place[3])
     return updated_holder(&updated->model, nearest);
 }
 
-/* Adds what a probe at a place takes values from, if this rank is to have it. What is wrong with the place is told where
- * the probe is made. */
+/* Adds what a probe at a place takes values from, if this rank is to have it. What is wrong with the place is told
+ * where the probe is made. */
 static void widen_to(const struct updated *updated, const double position[3], size_t range[2])
 {
     double place[3];
@@ -171,6 +174,21 @@ static void widen_to(const struct updated *updated, const double position[3], si
     messages_free(&unheard);
 }
 
+/* Adds what is watched for rotations. */
+static void widen_to_watched(const struct updated *updated, size_t range[2])
+{
+    const struct scene *scene = updated->model.scene;
+    for (size_t k = 0; k < MODEL_WATCHED; k++) {
+        const size_t point = model_watched(updated->cloud->whole, k);
+        double position[3];
+        if (updated->part.planes)
+            cloud_place(scene, point, position);
+        else
+            body_to_deck(&scene->body, updated->cloud->position + 3 * point, position);
+        widen_to(updated, position, range);
+    }
+}
+
 void updated_share(struct updated *updated)
 {
     struct updated_part *part = &updated->part;
@@ -178,6 +196,7 @@ void updated_share(struct updated *updated)
     const size_t own = updated->first;
     size_t range[2] = {own, own + updated->own};
     if (part->ranks == NULL) return;
+    if (model_is_watched(&updated->model)) widen_to_watched(updated, range);
     for (size_t k = 0; k < scene->receivers; k++)
         widen_to(updated, scene->receiver[k].position, range);
     for (size_t p = 0; p < scene->profiles; p++)
@@ -199,8 +218,8 @@ void updated_part_free(struct updated_part *part)
 {
     for (int r = 0; part->with != NULL && r < ranks_count(part->ranks); r++)
         array_free(part->with[r].give);
-    void *const arrays[] = {part->bound, part->held, part->length,  part->with,
-                            part->piece, part->box,  part->sent, part->arrived};
+    void *const arrays[] = {part->bound, part->held, part->length, part->with,
+                            part->piece, part->box,  part->sent,   part->arrived};
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++)
         array_free(arrays[k]);
 }
@@ -208,11 +227,11 @@ void updated_part_free(struct updated_part *part)
 void updated_spread(struct model *model, enum model_array array, struct spread *shares)
 {
     const struct updated *updated = updated_of(model);
-    const size_t widths[2] = {array == ARRAY_UNKNOWNS ? (size_t)updated->dimension : 1, (size_t)updated->stresses};
+    const size_t widths[2] = {array == ARRAY_UNKNOWNS ? (size_t)updated->dimension : 1,
+                              (size_t)updated->stresses};
     for (size_t k = 0; k < (array == ARRAY_UNKNOWNS ? 1 : 2); k++) {
         const size_t d = widths[k], held = d * updated->held, lead = d * updated->lead;
-        const struct spread_run run =
-            spread_line(0, d * updated->first, held, lead, lead + d * updated->own);
+        const struct spread_run run = spread_line(0, d * updated->first, held, lead, lead + d * updated->own);
         spread_add(shares, held, d * updated->cloud->whole, &run);
     }
 }
@@ -294,12 +313,14 @@ void updated_describe_part(const struct updated *updated,
     size_t messages;
     int used = snprintf(text, sizeof text, "%zu, particles:", ranks);
     for (size_t r = 0; r < ranks && (size_t)used + 24 < sizeof text; r++)
-        used += snprintf(text + used, sizeof text - (size_t)used, " %zu", part->bound[r + 1] - part->bound[r]);
+        used +=
+            snprintf(text + used, sizeof text - (size_t)used, " %zu", part->bound[r + 1] - part->bound[r]);
     tell(context, "ranks", text);
     size_t met = 0;
     for (size_t r = 0; r < ranks; r++)
         met += part->with[r].gives;
-    snprintf(text, sizeof text, "%zu by the first rank in each evaluation (%zu of its particles, which others may meet)",
+    snprintf(text, sizeof text,
+             "%zu by the first rank in each evaluation (%zu of its particles, which others may meet)",
              numbers_sent(updated, &messages) * sizeof(double), met);
     tell(context, "halo bytes a step", text);
     snprintf(text, sizeof text, "with %g ns a neighbour, %g ns a particle", NEIGHBOUR * 1e9, PARTICLE * 1e9);

@@ -44,7 +44,7 @@ static double product_of(const struct updated *updated, const double *a, const d
     const size_t d = (size_t)updated->dimension, from = d * updated->lead, end = from + d * updated->own;
     double sum = 0;
     for (int r = 0; r < ranks_count(ranks); r++) {
-        for (size_t i = from; r == ranks_me(ranks) && i < end; i++)
+        for (size_t i = r == ranks_me(ranks) ? from : end; i < end; i++)
             sum += a[i] * b[i];
         ranks_spread(ranks, r, &sum, sizeof sum);
     }
@@ -208,6 +208,12 @@ static void measure(struct updated *updated, struct iteration *work, struct spec
     updated->model.evaluations = evaluations;
 }
 
+size_t updated_spectrum_bytes(const struct updated *updated)
+{
+    const struct model *model = &updated->model;
+    return model->bytes + sizeof(double) * (4 * model->state_size + (STEPS + 2) * model->unknowns);
+}
+
 selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, struct messages *messages)
 {
     struct iteration work = {.vector = array_new(model->state_size, sizeof(double)),
@@ -232,7 +238,8 @@ double updated_mean_power(const struct updated *updated, double order)
     const struct cloud *cloud = updated->cloud;
     double sums[2] = {0};
     for (int r = 0; r < ranks_count(ranks); r++) {
-        for (size_t i = updated->made; r == ranks_me(ranks) && i < updated->made + updated->own; i++) {
+        const size_t end = updated->made + updated->own;
+        for (size_t i = r == ranks_me(ranks) ? updated->made : end; i < end; i++) {
             const double spacing = pow(cloud->volume[i], 1.0 / cloud->dimension);
             sums[0] += cloud->volume[i] * pow(spacing / cloud->spacing, order);
             sums[1] += cloud->volume[i];
@@ -273,7 +280,7 @@ selas_status updated_disorder(struct updated *updated, double *disorder, struct 
     updated->repulsive = repulsive;
     model->evaluations = evaluations;
     for (int r = 0; work.room && r < ranks_count(updated->part.ranks); r++) {
-        for (size_t k = 0; r == ranks_me(updated->part.ranks) && k < updated->own; k++)
+        for (size_t k = r == ranks_me(updated->part.ranks) ? 0 : updated->own; k < updated->own; k++)
             add_disorder(updated, work.dydt + model->unknowns + dimension * (updated->lead + k), k, sums);
         ranks_spread(updated->part.ranks, r, sums, sizeof sums);
     }

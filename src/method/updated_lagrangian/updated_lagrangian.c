@@ -217,8 +217,8 @@ static void destroy(struct model *model)
 static size_t bytes_of(const struct updated *updated)
 {
     const size_t places = updated->points + updated->ghosts;
-    return neighbours_bytes(&updated->neighbours) +
-           places * 6 * sizeof(double) + updated->ghosts * sizeof *updated->ghost +
+    return neighbours_bytes(&updated->neighbours) + places * 6 * sizeof(double) +
+           updated->ghosts * sizeof *updated->ghost +
            updated->layout.size * sizeof(double) * (updated->ordered ? updated->stride : places) +
            updated->shift_room * sizeof *updated->shift + updated->points * 2 * sizeof(double) +
            updated->cloud->points * (updated->part.planes ? 5 : 8) * sizeof(double) +
@@ -239,8 +239,6 @@ static void fill_public_face(struct updated *updated)
     model->component_stride = 1;
     model->point_stride = dimension;
     model->damped = updated->alpha > 0 || updated->beta > 0;
-    for (int face = 0; face < 2 * updated->dimension; face++)
-        model->level_images = model->level_images || updated->wall[face] == WALL_TRACTION;
     model->frame = model->scene->body.rotated ? model->scene->body.frame : NULL;
     model->bytes = bytes_of(updated);
 }
@@ -275,13 +273,11 @@ static struct wave_law waves_of(const struct updated *updated, double disorder)
 static selas_status lay_out(struct updated *updated, struct messages *messages)
 {
     const size_t points = updated->points;
-    selas_status status = check_scene(updated, messages);
-    if (status != SELAS_OK) return status;
     updated->reference = array_new(3 * points, sizeof(double));
     if (updated->reference == NULL)
         return fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
     memcpy(updated->reference, updated->cloud->position, 3 * points * sizeof(double));
-    status = check_forces(updated, messages);
+    selas_status status = check_forces(updated, messages);
     if (status == SELAS_OK) status = choose_own_lengths(updated, messages);
     if (status == SELAS_OK) status = updated_ghosts_create(updated, messages);
     if (status == SELAS_OK) status = take_memory(updated, messages);
@@ -320,13 +316,17 @@ static selas_status meet(struct updated *updated, struct messages *messages)
 static selas_status build(struct updated *updated, struct messages *messages)
 {
     choose_layout(updated);
-    selas_status status = updated_make_points(updated, messages);
+    selas_status status = check_scene(updated, messages);
+    updated->model.level_images = updated->pressed;
+    if (status == SELAS_OK) status = updated_make_points(updated, messages);
     if (status != SELAS_OK) return status;
     choose_lengths(updated);
     status = updated_agree(updated, lay_out(updated, messages), messages);
     if (status == SELAS_OK) status = meet(updated, messages);
     if (status != SELAS_OK) return status;
     fill_public_face(updated);
+    const size_t measured = updated_spectrum_bytes(updated);
+    if (updated->model.setup_bytes < measured) updated->model.setup_bytes = measured;
     double disorder = 0;
     if (updated->cloud->grid[0] == 0) status = updated_disorder(updated, &disorder, messages);
     updated->model.waves = waves_of(updated, disorder);
@@ -336,9 +336,9 @@ static selas_status build(struct updated *updated, struct messages *messages)
 }
 
 #define CORE                                                                                                 \
-    .destroy = destroy, .initialise = updated_initialise, .probe = updated_probe, .observe = updated_observe,  \
-    .field = updated_field, .energy = updated_energy, .power = updated_power, .unseen = updated_unseen,        \
-    .describe = updated_describe
+    .destroy = destroy, .initialise = updated_initialise, .probe = updated_probe,                            \
+    .observe = updated_observe, .field = updated_field, .energy = updated_energy, .power = updated_power,    \
+    .unseen = updated_unseen, .describe = updated_describe
 static const struct model_core core = {CORE};
 static const struct model_core shared_core = {CORE, .holder = updated_holder, .share = updated_spread};
 static const struct model_operator spatial = {.rate = updated_rate, .spectrum = updated_spectrum};
@@ -370,53 +370,3 @@ selas_status updated_lagrangian_new(const struct scene *scene, const struct upda
     *model = &updated->model;
     return SELAS_OK;
 }
-
-static double real_or(const struct deck_group *group, const char *name, double standard)
-{
-    return deck_values(group, name) > 0 ? deck_real(group, name, 0) : standard;
-}
-
-static bool logical_or(const struct deck_group *group, const char *name, bool standard)
-{
-    return deck_values(group, name) > 0 ? deck_logical(group, name, 0) : standard;
-}
-
-struct updated_options updated_lagrangian_published(void)
-{
-    return (struct updated_options){.kernel = kernel_find("cubic"),
-                                    .smoothing_length = 1.5,
-                                    .alpha = 2.5,
-                                    .beta = 2.5,
-                                    .artificial_stress = .3,
-                                    .correction = true,
-                                    .jaumann = true};
-}
-
-static selas_status create(const struct scene *scene, struct model **model, struct messages *messages)
-{
-    const struct deck_group *group = scene->method.group;
-    struct updated_options options = updated_lagrangian_published();
-    *model = NULL;
-    if (group != NULL) {
-        if (deck_values(group, "kernel") > 0) options.kernel = kernel_find(deck_text(group, "kernel", 0));
-        options.smoothing_length = real_or(group, "smoothing_length", options.smoothing_length);
-        options.alpha = real_or(group, "viscosity_alpha", options.alpha);
-        options.beta = real_or(group, "viscosity_beta", options.beta);
-        options.artificial_stress = real_or(group, "artificial_stress", options.artificial_stress);
-        options.correction = logical_or(group, "gradient_correction", options.correction);
-        options.adjoint = deck_chosen(group, "forces", "adjoint");
-        options.hourglass = real_or(group, "hourglass", options.hourglass);
-        options.jaumann = logical_or(group, "jaumann", options.jaumann);
-    }
-    return updated_lagrangian_new(scene, &options, NULL, model, messages);
-}
-
-const struct method method_updated_lagrangian = {
-    .name = "sph",
-    .variant = "updated-lagrangian",
-    .words = "kernel smoothing_length viscosity_alpha viscosity_beta artificial_stress gradient_correction "
-             "jaumann forces hourglass",
-    .faces = CAN_HOLD | CAN_MOVE | CAN_MIRROR | CAN_DAMP,
-    .ranks = true,
-    .create = create,
-};

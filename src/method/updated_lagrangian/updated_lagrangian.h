@@ -4,9 +4,9 @@
  * stress components in the plane (1D: xx; 2D: xx yy xy; 3D: xx yy zz xy yz zx). Everything is in the body's
  * own frame. Particles are followed by ghosts in all geometric arrays; ghosts have no state of their own.
  *
- * On ranks (doc/developers/ranks.md) a rank owns a range of the body's particles. The state has these, and others beside
- * them that receivers look at. The geometric arrays have the own particles, and those of others that they may meet, in
- * the order of the body. */
+ * On ranks (doc/developers/ranks.md) a rank owns a range of the body's particles. The state has these, and others
+ * beside them that receivers look at. The geometric arrays have the own particles, and those of others that they may
+ * meet, in the order of the body. */
 #ifndef SELAS_METHOD_UPDATED_LAGRANGIAN_UPDATED_LAGRANGIAN_H
 #define SELAS_METHOD_UPDATED_LAGRANGIAN_UPDATED_LAGRANGIAN_H
 
@@ -59,20 +59,21 @@ struct updated_partner {
 
 /* The share of a rank (share.c, window.c). */
 struct updated_part {
-    struct ranks *ranks;          /* borrowed; NULL: alone */
-    bool planes;                  /* the cloud has but some planes of the body */
-    size_t *bound;                /* [ranks + 1] first own particle of each rank, in the body */
-    size_t *held;                 /* [2 * ranks] first particle in the state of each rank, and the one behind */
-    double *length;               /* [cloud->points] smoothing length over the usual one */
+    struct ranks *ranks; /* borrowed; NULL: alone */
+    bool planes;         /* the cloud has but some planes of the body */
+    size_t *bound;       /* [ranks + 1] first own particle of each rank, in the body */
+    size_t *held;        /* [2 * ranks] first particle in the state of each rank, and the one behind */
+    double *length;      /* [cloud->points] smoothing length over the usual one */
     struct updated_partner *with; /* [ranks] */
     struct ranks_piece *piece;
-    double *box;            /* [6 * ranks] where each one's particles are */
-    double *sent, *arrived; /* what is sent to others; their particles, ascending: a state each, u v density stress */
-    bool lost;              /* no memory for what moves: nothing goes on */
+    double *box; /* [6 * ranks] where each one's particles are */
+    double *sent,
+        *arrived; /* what is sent to others; their particles, ascending: a state each, u v density stress */
+    bool lost;    /* no memory for what moves: nothing goes on */
     struct ranks_outlook outlook;
 };
 
-#define UPDATED_SKIN .15 /* spacings that lists reach further than the kernel */
+#define UPDATED_SKIN .15  /* spacings that lists reach further than the kernel */
 enum { UPDATED_END = 8 }; /* empty places at both ends of the planes */
 
 struct updated {
@@ -253,7 +254,8 @@ selas_status updated_find_neighbours(struct updated *updated, struct messages *m
 bool updated_search_is_due(const struct updated *updated);
 size_t updated_window_bytes(const struct updated *updated);
 
-/* spectrum.c */
+/* spectrum.c; the model's bytes and those that it takes, with the run's state */
+size_t updated_spectrum_bytes(const struct updated *updated);
 selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, struct messages *messages);
 double updated_mean_power(const struct updated *updated, double order);
 /* What a uniform stress does to scattered particles: points/disorder.h. */

@@ -47,7 +47,8 @@ static void swap(const struct updated *updated, size_t width, double *to, bool o
 /* The k-th own particle's state. */
 static double *put_state(const struct updated *updated, const double *y, size_t k, double *to)
 {
-    const size_t row = k + updated->lead, d = (size_t)updated->dimension, stresses = (size_t)updated->stresses;
+    const size_t row = k + updated->lead, d = (size_t)updated->dimension,
+                 stresses = (size_t)updated->stresses;
     const double *v = y + updated->model.unknowns, *density = v + updated->model.unknowns,
                  *stress = density + updated->held;
     memcpy(to, y + d * row, d * sizeof *to);
@@ -186,7 +187,8 @@ static bool make_room(struct updated *updated)
     size_t gives = 0;
     for (int r = 0; r < ranks_count(part->ranks); r++)
         gives += part->with[r].gives;
-    double **const arrays[] = {&updated->mass, &updated->length, &updated->reference, &part->sent, &part->arrived};
+    double **const arrays[] = {&updated->mass, &updated->length, &updated->reference, &part->sent,
+                               &part->arrived};
     const size_t counts[] = {updated->points, updated->points, 3 * updated->points, widest(updated) * gives,
                              widest(updated) * (updated->points - updated->own)};
     bool room = true;
@@ -257,7 +259,8 @@ bool updated_meet(struct updated *updated)
     double mine[6];
     share_boxes(updated, mine);
     for (int r = 0; r < ranks_count(part->ranks); r++)
-        if (r != ranks_me(part->ranks)) room = choose(updated, mine, part->box + 6 * r, &part->with[r]) && room;
+        if (r != ranks_me(part->ranks))
+            room = choose(updated, mine, part->box + 6 * r, &part->with[r]) && room;
     count_particles(updated);
     room = updated_all_have(updated, make_room(updated) && room);
     if (room) share_lasting(updated);
@@ -268,13 +271,13 @@ bool updated_meet(struct updated *updated)
 
 selas_status updated_find_neighbours(struct updated *updated, struct messages *messages)
 {
-    selas_status status = neighbours_find_some(&updated->neighbours, updated->dimension,
-                                               updated->points + updated->ghosts, updated->searched,
-                                               search_radius(updated), updated->from,
-                                               updated->from + updated->own, messages);
+    selas_status status = neighbours_find_some(
+        &updated->neighbours, updated->dimension, updated->points + updated->ghosts, updated->searched,
+        search_radius(updated), updated->from, updated->from + updated->own, messages);
     if (status == SELAS_OK && updated->ordered) status = updated_merge_lists(updated, messages);
     if (status == SELAS_OK && !updated_hourglass_weights(updated))
-        status = fail(messages, SELAS_NO_MEMORY, "no memory for hourglass control of %zu particles", updated->own);
+        status =
+            fail(messages, SELAS_NO_MEMORY, "no memory for hourglass control of %zu particles", updated->own);
     return status;
 }
 
@@ -302,7 +305,7 @@ size_t updated_window_bytes(const struct updated *updated)
     size_t bytes = 0;
     for (int r = 0; part->ranks != NULL && r < ranks_count(part->ranks); r++)
         bytes += part->with[r].room * sizeof *part->with[r].give +
-                 (part->with[r].gives + (r != ranks_me(part->ranks) ? part->with[r].gets : 0)) * widest(updated) *
-                     sizeof(double);
+                 (part->with[r].gives + (r != ranks_me(part->ranks) ? part->with[r].gets : 0)) *
+                     widest(updated) * sizeof(double);
     return bytes;
 }
