@@ -166,7 +166,7 @@ static double iterate(struct updated *updated, struct iteration *work,
         if (!isfinite(work->projected[n][n - 1])) return 0;
         const bool exhausted = !(work->projected[n][n - 1] > 1e-12 * fabs(work->projected[0][0]));
         if (!exhausted && n % CHECK != 0) continue;
-        work->room = updated_all_have(updated, largest_ritz(work, n, &theta, &residual, part));
+        work->room = work->room && updated_all_have(updated, largest_ritz(work, n, &theta, &residual, part));
         done = exhausted || !work->room || residual < ENOUGH * theta;
     }
     memset(work->vector, 0, unknowns * sizeof *work->vector);
