@@ -88,3 +88,29 @@ awk '/^ranks: 2, particles/ { a = $(NF - 1); b = $NF } /^neighbours of a particl
         d = told - e; exit !(met > 0 && told > 0 && told < 1 && d * d < .01 ^ 2) }' "$work/plan"
 verdict $? "the plan of particles on ranks tells the efficiency of the model of cost"
 same 3 "scattered particles that move, hourglass control, stages of Runge, Kutta and Chebyshev" $moving body%jitter=.1 method%kernel=wendland method%hourglass=.2 stepping%scheme=rkc
+same "2 4" "particles that move in space" regress/parallel/solid-particles.nml
+same 3 "scattered particles in space, hourglass control" regress/parallel/solid-particles.nml body%jitter=.1 method%hourglass=.2
+# two blocks, 5 spacings apart, that are pressed together and meet; in the order of space and in none
+awk 'BEGIN { for (k = 0; k < 72; k++) printf "%g %g .01\n", .05 + .1 * (k % 6) + (k < 36 ? 0 : 1.1), .05 + .1 * int(k % 36 / 6) }' >"$work/two.txt"
+awk '{ printf "%d %s\n", NR * 31 % 73, $0 }' "$work/two.txt" | sort -n | cut -d ' ' -f 2- >"$work/mixed.txt"
+cat >"$work/two.nml" <<'END'
+&scene title = 'Blocks that meet', dimension = 2, end_time = 3.0 /
+&method name = 'sph', variant = 'updated-lagrangian', hourglass = 0.2 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body name = 'blocks', material = 'rock', shape = 'points', file = 'two.txt', low = 0.0, 0.0, high = 1.7, 0.6, spacing = 0.1 /
+&load face = 'x-', shape = 'face', direction = 1.0, 0.0, amplitude = 0.3, history = 'gaussian', width = 0.3, delay = 1.2 /
+&load face = 'x+', shape = 'face', direction = -1.0, 0.0, amplitude = 0.3, history = 'gaussian', width = 0.3, delay = 1.2 /
+&receiver name = 'left', position = 0.6, 0.3 /
+&receiver name = 'right', position = 1.1, 0.3 /
+&snapshot every = 1.0, fields = 'displacement', 'velocity', 'stress' /
+&output history_step = 0.1, plots = .false. /
+END
+MEET=1
+same "2 3" "particles of two blocks that meet" "$work/two.nml"
+same 3 "the same in a file of no order" "$work/two.nml" body%file=mixed.txt
+unset MEET
+deep='regress/parallel/solid-particles.nml body%high=.9,.8,6.4 load%centre=.3,.2,6.4 receiver(1)%position=.3,.2,6.4'
+# shellcheck disable=SC2086
+"$build/selas" check $deep >"$work/plan" 2>"$work/log" && timeout 60 $mpirun -n 4 "$build/selas-mpi" check $deep >"$work/log" 2>&1
+awk -F ': ' '/^planned memory bytes/ { planned[++runs] = $2 } END { exit !(runs == 2 && planned[2] > 0 && planned[2] < .45 * planned[1]) }' "$work/plan" "$work/log"
+verdict $? "4 ranks plan less than .45 of the memory of one process each for particles"
