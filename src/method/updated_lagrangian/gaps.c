@@ -45,7 +45,8 @@ selas_status updated_warn_of_gaps(const struct updated *updated, struct messages
     selas_status status = SELAS_OK;
     if (site == NULL) status = fail(messages, SELAS_NO_MEMORY, "no memory for %zu particles", points);
     status = updated_agree(updated, status, messages);
-    for (size_t i = updated->from; status == SELAS_OK && i < updated->from + updated->own; i++)
+    for (size_t i = updated->from; status == SELAS_OK && site != NULL && i < updated->from + updated->own;
+         i++)
         if (beside_gap(updated, i, site) && beside++ == 0) first = -(double)i;
     array_free(site);
     if (status != SELAS_OK) return status;

@@ -287,7 +287,8 @@ static void one_pass(const struct updated *updated, enum pass pass, const double
 /* Own particles have a matrix, g or B; their images get it, and those of others and theirs. */
 static void complete(const struct updated *updated, double *matrices)
 {
-    updated_bring(updated, (size_t)(updated->dimension * updated->dimension), matrices);
+    const size_t dimension = (size_t)updated->dimension;
+    updated_bring(updated, dimension * dimension, matrices);
     for (size_t g = 0; g < updated->ghosts; g++)
         mirror_matrix(updated, matrices, g);
 }

@@ -149,8 +149,8 @@ selas_status updated_choose_order(struct updated *updated, struct messages *mess
     }
     status = updated_agree(updated, status, messages);
     if (status != SELAS_OK) return status;
-    for (size_t i = from; updated->ordered && i < end; i += GROUP)
-        merged[0] += GROUP * (double)updated->shifts[(i - from) / GROUP];
+    for (size_t i = from, group = 0; updated->shifts != NULL && i < end; i += GROUP)
+        merged[0] += GROUP * (double)updated->shifts[group++];
     merged[1] = (double)updated->merged;
     ranks_sum(updated->part.ranks, 2, merged);
     updated->ordered = updated->ordered && merged[0] < MOST * merged[1];

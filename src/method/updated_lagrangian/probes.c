@@ -151,7 +151,9 @@ static selas_status probe_at_rest(const struct updated *updated, const double pl
     const bool shared = updated->part.ranks != NULL;
     selas_status status = shared ? all_at_rest(updated, &rest, messages) : SELAS_OK;
     if (status == SELAS_OK) status = fit_place(&rest, place, probe, messages);
-    *faces = status == SELAS_OK ? array_new(probe->count + probe->sites, sizeof **faces) : NULL;
+    *faces = status == SELAS_OK && rest.reference != NULL
+                 ? array_new(probe->count + probe->sites, sizeof **faces)
+                 : NULL;
     if (status == SELAS_OK && *faces == NULL) {
         probe_free(probe);
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the weights of a receiver");

@@ -53,7 +53,7 @@ static selas_status deal(struct updated *updated, size_t points, size_t unit, co
         part->box == NULL)
         status = fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");
     status = updated_agree(updated, status, messages);
-    if (status != SELAS_OK) return status;
+    if (status != SELAS_OK || part->bound == NULL) return status;
     ranks_deal(units, one, NULL, ranks, part->bound);
     for (size_t r = 0; r <= ranks; r++)
         part->bound[r] = unit * part->bound[r] < points ? unit * part->bound[r] : points;
@@ -117,7 +117,7 @@ selas_status updated_make_points(struct updated *updated, struct messages *messa
             status = deal(updated, updated->cloud->points, UPDATED_BLOCK, "blocks of 32 particles", messages);
     }
     if (status != SELAS_STOPPED) status = updated_agree(updated, status, messages);
-    if (status != SELAS_OK) return status;
+    if (status != SELAS_OK || updated->cloud == NULL) return status;
     updated->points = updated->cloud->points;
     updated->first = part->bound[ranks_me(part->ranks)];
     updated->from = updated->made = updated->first - updated->cloud->first;

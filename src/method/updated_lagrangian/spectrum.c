@@ -220,8 +220,8 @@ selas_status updated_spectrum(struct model *model, struct spectrum *spectrum, st
                              .y = array_new(model->state_size, sizeof(double)),
                              .dydt = array_new(model->state_size, sizeof(double)),
                              .basis = array_new(model->unknowns, (STEPS + 1) * sizeof(double))};
-    work.room = updated_all_have(updated_of(model), work.vector != NULL && work.y != NULL &&
-                                                        work.dydt != NULL && work.basis != NULL);
+    work.room = work.vector != NULL && work.y != NULL && work.dydt != NULL && work.basis != NULL;
+    if (!updated_all_have(updated_of(model), work.room)) work.room = false;
     *spectrum = (struct spectrum){0};
     if (work.room) measure(updated_of(model), &work, spectrum);
     array_free(work.vector);
@@ -271,7 +271,8 @@ selas_status updated_disorder(struct updated *updated, double *disorder, struct 
     double *stress = array_new(stresses * updated->held, sizeof *stress), sums[2] = {0};
     struct iteration work = {.y = array_new(model->state_size, sizeof(double)),
                              .dydt = array_new(model->state_size, sizeof(double))};
-    work.room = updated_all_have(updated, stress != NULL && work.y != NULL && work.dydt != NULL);
+    work.room = stress != NULL && work.y != NULL && work.dydt != NULL;
+    if (!updated_all_have(updated, work.room)) work.room = false;
     for (size_t i = 0; work.room && i < updated->held; i++)
         for (size_t a = 0; a < dimension; a++)
             stress[stresses * i + (size_t)updated_component[dimension][a][a]] = 1;
