@@ -123,7 +123,7 @@ SELAS_API selas_status selas_plan(selas_simulation *simulation,
 /* All messages so far (errors and warnings, one a line), "" if none; valid until the next call. Never NULL. The advice
  * on a scene (doc/howto/troubleshooting.md) is said at the first step. A
  * failure that keeps all later calls from being done (a deck that cannot be opened, a scene that cannot be
- * built, a run that went unstable) is told once. */
+ * built, a run that went unstable, values of which are not read either) is told once. */
 SELAS_API const char *selas_message(const selas_simulation *simulation);
 /* What the last call that returns a status said, "" if nothing; of a call that was not done because an
  * earlier one had failed, what that one said. Valid until the next call of this function. Never NULL. */

@@ -256,5 +256,25 @@ check "rerun: told beside the override of a profile, too" sh -c "
     '$selas' -q rerun tabled/run.h5 'profile(1)%points=7' 2>err && grep -q 'names has changed since' err"
 check "rerun: not where another one is asked for" sh -c "
     '$selas' -q rerun tabled/run.h5 load%file=table.dat 2>err && ! grep 'has changed' err"
+printf '0 0\n1 1\n2 0\n' >early.dat
+printf '3 0\n4 1\n5 0\n' >late.dat
+cat >two.nml <<'END'
+&scene dimension = 1, end_time = 1 /
+&material name = 'rock', density = 1, young = 1, poisson = 0 /
+&body material = 'rock', low = 0, high = 1, spacing = .1 /
+&load face = 'x-', direction = 1, history = 'table', file = 'early.dat' /
+&load face = 'x+', direction = 1, history = 'table', file = 'late.dat' /
+&receiver name = 'r', position = .5 /
+&output directory = 'two', plots = .false. /
+END
+"$selas" -q two.nml 2>/dev/null
+echo '3 0' >>early.dat
+sed -i 1d late.dat
+check "rerun: told of two files whose border moved" sh -c "
+    '$selas' -q rerun two/run.h5 2>err && grep -q 'names has changed since' err"
+check "rerun: told beside the override of another one" sh -c "
+    '$selas' -q rerun two/run.h5 'load(1)%file=early.dat' 2>err && grep -q 'names has changed since' err"
+check "rerun: not where both are asked for" sh -c "'$selas' -q rerun two/run.h5 'load(1)%file=early.dat' \\
+    'load(2)%file=late.dat' 2>err && ! grep 'has changed' err"
 check "rerun: no run.h5" sh -c "! '$selas' rerun cut_paper/p.dat 2>err && grep -q 'p.dat' err"
 exit $failures

@@ -90,9 +90,10 @@ char *deck_resolve(const struct deck *deck, const char *file);
 char *deck_absolute(const struct deck *deck, const char *file);
 /* The program stands in another folder than when the deck was read. */
 bool deck_moved(const struct deck *deck);
-/* The paths of all files that the deck names, one call each, until one returns false: then, and without
- * memory, false. */
-bool deck_files(const struct deck *deck, bool (*visit)(void *context, const char *path), void *context);
+/* All files that the deck names, one call each with the word ("load(2)%file"), the path, and whether an override gave
+ * it, until one returns false: then, and without memory, false. */
+typedef bool deck_visit(void *context, const char *word, const char *path, bool overridden);
+bool deck_files(const struct deck *deck, deck_visit *visit, void *context);
 const char *deck_source(const struct deck *deck); /* the text as read, without overrides */
 /* Whole path of the file that it was read from; "": from none. */
 const char *deck_origin(const struct deck *deck);

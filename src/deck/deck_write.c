@@ -49,14 +49,17 @@ char *deck_resolve(const struct deck *deck, const char *file)
     return deck_moved(deck) ? deck_absolute(deck, file) : relative(deck, file);
 }
 
-bool deck_files(const struct deck *deck, bool (*visit)(void *context, const char *path), void *context)
+bool deck_files(const struct deck *deck, deck_visit *visit, void *context)
 {
     for (size_t g = 0; g < deck->list.groups; g++) {
         const struct deck_group *group = &deck->list.group[g];
         for (size_t w = 0; w < group->kind->words; w++) {
             if (group->kind->word[w].type != WORD_FILE || group_values(group, w) == 0) continue;
-            char *path = deck_resolve(deck, group_value(group, w, 0)->as.text);
-            const bool good = path != NULL && visit(context, path);
+            const struct value *value = group_value(group, w, 0);
+            char name[80], *path = deck_resolve(deck, value->as.text);
+            snprintf(name, sizeof name, "%s(%zu)%%%s", group->kind->name,
+                     g - deck->first[group->kind - deck->list.table->group] + 1, group->kind->word[w].name);
+            const bool good = path != NULL && visit(context, name, path, value->place.line == 0);
             array_free(path);
             if (!good) return false;
         }

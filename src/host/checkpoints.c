@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 static selas_status check_path(selas_simulation *simulation, const char *path)
 {
@@ -166,21 +165,10 @@ static selas_status place_rerun(selas_simulation *simulation)
     return SELAS_OK;
 }
 
-static bool names_file(const char *override)
-{
-    const char *word = strchr(override, '%');
-    return word != NULL &&
-           (strncasecmp(word + 1, "file", 4) == 0 || strncasecmp(word + 1, "sources", 7) == 0);
-}
-
 /* The deck only names its files, and nothing keeps what a host gave; overrides that name files mean others. */
-static void warn_of_change(selas_simulation *simulation, const char *path, const char *files, size_t count,
-                           const char *const *overrides)
+static void warn_of_change(selas_simulation *simulation, const char *path, const char *files)
 {
-    char text[KEPT_CHECKSUM];
-    if (files == NULL || !kept_files_text(simulation->scene, text) || strcmp(files, text) == 0) return;
-    for (size_t i = 0; i < count; i++)
-        if (names_file(overrides[i])) return;
+    if (files == NULL || !kept_files_changed(simulation->scene, files)) return;
     warn(&simulation->messages,
          "a file that the deck of '%s' names has changed since, or a host gave that run its points or drove "
          "its loads: "
@@ -207,7 +195,7 @@ selas_status simulation_open_run(const char *path, size_t count, const char *con
     }
     if (status == SELAS_OK) status = place_rerun(simulation);
     if (status == SELAS_OK) status = simulation_scene(simulation);
-    if (status == SELAS_OK) warn_of_change(simulation, path, kept.files, count, overrides);
+    if (status == SELAS_OK) warn_of_change(simulation, path, kept.files);
     free(all);
     kept_deck_free(&kept);
     return status;

@@ -264,7 +264,8 @@ static selas_status start(selas_simulation *simulation)
 selas_status simulation_begin(selas_simulation *simulation)
 {
     selas_status status = start(simulation);
-    if (status != SELAS_OK || simulation->failed != SELAS_OK) return status;
+    if (status != SELAS_OK) return status;
+    if (simulation->failed != SELAS_OK) return simulation_consequence(simulation, simulation->failed);
     status = host_refresh(simulation);
     if (status != SELAS_OK) simulation_failed(simulation, status);
     return status;
@@ -283,7 +284,6 @@ static selas_status run_steps(selas_simulation *simulation, unsigned long steps)
     selas_status status = simulation_begin(simulation);
     if (status != SELAS_OK) return status;
     struct messages *messages = &simulation->messages;
-    if (simulation->failed != SELAS_OK) return simulation_consequence(simulation, simulation->failed);
     if (simulation->finished && steps > 0)
         return fail(messages, SELAS_BAD_ARGUMENT, "the histories are finished; no step can follow");
     if (simulation->recording && steps > 0) status = simulation_at_home(simulation);

@@ -123,7 +123,8 @@ selas_status simulation_prepare(selas_simulation *simulation);
 selas_status simulation_at_home(selas_simulation *simulation);
 /* The state at rest of one that is prepared; remembers the files that its deck names. Together, on ranks. */
 selas_status simulation_state(selas_simulation *simulation);
-/* The same as simulation_prepare, with the state at t = 0 or later and the loads as they are now. */
+/* The same as simulation_prepare, with the state at t = 0 or later, sound, and the loads as they are now; else why no
+ * step can follow. */
 selas_status simulation_begin(selas_simulation *simulation);
 /* Together: what drives a step, beyond end_time too. */
 selas_status simulation_reach(selas_simulation *simulation, unsigned long step);

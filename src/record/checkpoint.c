@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "base/safe_file.h"
 #include "record/checkpoint_head.h"
+#include "record/kept.h"
 #include "record/run_file.h"
 #include "record/walk.h"
 
@@ -124,7 +125,7 @@ selas_status checkpoint_write(struct recorder *recorder, struct state *state, co
                               const char *path, enum checkpoint_keep keep, struct messages *messages)
 {
     struct ranks *ranks = recorder->scene->ranks;
-    const uint64_t files = recorder->files;
+    const uint64_t files = kept_sum(recorder->files);
     double figures[FIGURES] = {[STEP] = (double)state->step,
                                [TIME] = state->time,
                                [LAST_TIME] = recorder->last_time,
@@ -173,7 +174,7 @@ static bool is_count(double figure, double below)
 /* A reason why the checkpoint's own figures do not fit, or NULL. */
 static const char *misfit_of_figures(const struct recorder *recorder, const double figures[FIGURES])
 {
-    const uint64_t files = recorder->files;
+    const uint64_t files = kept_sum(recorder->files);
     const double dt = recorder->stepper->dt;
     if (!is_count(figures[STEP], 9e15) || !is_count(figures[ENTRIES], 1e9) ||
         !is_count(figures[EVALUATIONS], 9e15))

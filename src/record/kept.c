@@ -11,71 +11,104 @@
 #include <stdlib.h>
 #include <string.h>
 
-static uint64_t file_checksum(const struct crc64_table *table, uint64_t before, const char *path)
+/* Of a file; "?": it cannot be read. */
+static uint64_t file_checksum(const struct crc64_table *table, const char *path)
 {
     char block[4096];
     size_t length;
+    uint64_t sum = 0;
     FILE *file = fopen(path, "rb");
-    if (file == NULL) return crc64_add(table, before, "?", 1);
+    if (file == NULL) return crc64_add(table, 0, "?", 1);
     while ((length = fread(block, 1, sizeof block, file)) > 0)
-        before = crc64_add(table, before, block, length);
+        sum = crc64_add(table, sum, block, length);
     fclose(file);
-    return before;
+    return sum;
 }
 
-struct sum {
+struct sums {
     struct crc64_table table;
-    uint64_t checksum;
+    const char *before; /* lines that these are held against; NULL: these are written */
+    FILE *lines;
+    bool differ;
 };
 
-static bool add_file(void *context, const char *path)
+static void add_line(struct sums *sums, const char *word, uint64_t sum)
 {
-    struct sum *sum = context;
-    sum->checksum = file_checksum(&sum->table, sum->checksum, path);
+    char line[128];
+    const int length = snprintf(line, sizeof line, "%s=%016llx\n", word, (unsigned long long)sum);
+    if (sums->before == NULL) {
+        fputs(line, sums->lines);
+        return;
+    }
+    for (const char *at = sums->before; (at = strstr(at, word)) != NULL; at++) {
+        const bool begins = at == sums->before || at[-1] == '\n';
+        if (begins && at[strlen(word)] == '=') {
+            sums->differ = sums->differ || strncmp(at, line, (size_t)length) != 0;
+            return;
+        }
+    }
+}
+
+static bool add_file(void *context, const char *word, const char *path, bool overridden)
+{
+    struct sums *sums = context;
+    if (sums->before == NULL || !overridden) add_line(sums, word, file_checksum(&sums->table, path));
     return true;
 }
 
-static void add_bytes(struct sum *sum, const void *bytes, size_t length)
+static uint64_t add_bytes(const struct sums *sums, uint64_t sum, const void *bytes, size_t length)
 {
-    if (bytes != NULL) sum->checksum = crc64_add(&sum->table, sum->checksum, bytes, length);
+    return bytes != NULL ? crc64_add(&sums->table, sum, bytes, length) : sum;
 }
 
-/* What a host gives beside the deck: points, and which loads and faces it drives. */
-static void add_host(const struct scene *scene, struct sum *sum)
+/* What a host gives beside the deck: points, and which loads and faces it drives; 0: nothing. */
+static uint64_t sum_of_host(const struct scene *scene, const struct sums *sums)
 {
     const struct given_points *given = scene->body.given;
+    uint64_t sum = 0;
     if (given != NULL) {
-        add_bytes(sum, given->position, 3 * given->count * sizeof *given->position);
-        add_bytes(sum, given->volume, given->count * sizeof *given->volume);
-        add_bytes(sum, given->material, given->material != NULL ? given->count * sizeof *given->material : 0);
+        sum = add_bytes(sums, sum, given->position, 3 * given->count * sizeof *given->position);
+        sum = add_bytes(sums, sum, given->volume, given->count * sizeof *given->volume);
+        sum = add_bytes(sums, sum, given->material, given->count * sizeof *given->material);
     }
     for (size_t k = 0; k < scene->loads; k++)
-        if (scene->load[k].driven != BY_HISTORY) add_bytes(sum, &k, sizeof k);
+        if (scene->load[k].driven != BY_HISTORY) sum = add_bytes(sums, sum + 1, &k, sizeof k);
     for (size_t face = 0; face < FACES; face++)
-        if (scene->boundary[face].driven != BY_HISTORY) add_bytes(sum, &face, sizeof face);
+        if (scene->boundary[face].driven != BY_HISTORY) sum = add_bytes(sums, sum + 2, &face, sizeof face);
+    return sum;
 }
 
-bool kept_files_checksum(const struct scene *scene, uint64_t *checksum)
+static bool add_all(const struct scene *scene, struct sums *sums)
 {
-    struct sum sum = {.checksum = 0};
-    crc64_prepare(&sum.table);
-    const bool good = scene->deck == NULL || deck_files(scene->deck, add_file, &sum);
-    add_host(scene, &sum);
-    *checksum = sum.checksum;
+    crc64_prepare(&sums->table);
+    const bool good = scene->deck == NULL || deck_files(scene->deck, add_file, sums);
+    add_line(sums, "host", sum_of_host(scene, sums));
     return good;
 }
 
-void kept_text_of(uint64_t checksum, char text[KEPT_CHECKSUM])
+char *kept_files(const struct scene *scene)
 {
-    snprintf(text, KEPT_CHECKSUM, "%016llx", (unsigned long long)checksum);
+    char *text = NULL;
+    size_t length = 0;
+    struct sums sums = {.lines = open_memstream(&text, &length)};
+    if (sums.lines == NULL) return NULL;
+    const bool good = add_all(scene, &sums);
+    if (fclose(sums.lines) == 0 && good) return text;
+    free(text);
+    return NULL;
 }
 
-bool kept_files_text(const struct scene *scene, char text[KEPT_CHECKSUM])
+bool kept_files_changed(const struct scene *scene, const char *files)
 {
-    uint64_t checksum = 0;
-    const bool good = kept_files_checksum(scene, &checksum);
-    kept_text_of(checksum, text);
-    return good;
+    struct sums sums = {.before = files};
+    return add_all(scene, &sums) && sums.differ;
+}
+
+uint64_t kept_sum(const char *files)
+{
+    struct crc64_table table;
+    crc64_prepare(&table);
+    return crc64_add(&table, 0, files, strlen(files));
 }
 
 selas_status kept_deck_of_checkpoint(const char *path, struct ranks *ranks, struct kept_deck *kept,

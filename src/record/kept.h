@@ -11,7 +11,7 @@ struct kept_deck {
     char *source; /* as it was read */
     char *name;   /* file name without folder and ".nml" */
     char *origin; /* of a checkpoint: whole path of the file that it was read from, or ""; NULL: not kept */
-    char *files;  /* of run.h5: kept_files_text() of that run; else NULL */
+    char *files;  /* of run.h5: kept_files() of that run; else NULL */
 };
 
 /* SELAS_FILE_ERROR with the reason if the file is damaged or holds none. Ranks: together; each looks for itself. */
@@ -20,12 +20,13 @@ selas_status kept_deck_of_checkpoint(const char *path, struct ranks *ranks, stru
 selas_status kept_deck_of_run(const char *path, struct kept_deck *kept, struct messages *messages);
 void kept_deck_free(struct kept_deck *kept);
 
-/* Checksum of what the deck only names: points, tables, references, and what a host gives beside it: points, and which
- * loads and faces it drives; false without memory. */
-bool kept_files_checksum(const struct scene *scene, uint64_t *checksum);
-enum { KEPT_CHECKSUM = 17 };
-void kept_text_of(uint64_t checksum, char text[KEPT_CHECKSUM]);
-/* The scene's as text. */
-bool kept_files_text(const struct scene *scene, char text[KEPT_CHECKSUM]);
+/* What tells whether that which the deck only names is the same: a line "load(1)%file=0123456789abcdef" for each file
+ * (points, tables, references), the last, "host=...", of what a host gives beside it: points, and which loads and faces
+ * it drives. In new memory (free it); NULL without memory. */
+char *kept_files(const struct scene *scene);
+/* Does one of them differ from those lines, beside files that an override names? */
+bool kept_files_changed(const struct scene *scene, const char *files);
+/* The lines in one number. */
+uint64_t kept_sum(const char *files);
 
 #endif

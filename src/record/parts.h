@@ -106,7 +106,7 @@ struct recorder {
     double last_time;
     bool started;
     bool recording; /* with result files, which the first rank has */
-    uint64_t files; /* checksum of the files that the deck names, as they were read */
+    char *files;    /* kept_files() as they were read; NULL: not yet */
     double memory;  /* planned bytes of the largest rank; 0: one alone */
 };
 

@@ -84,11 +84,9 @@ static bool write_origin(const struct recorder *recorder, hid_t place, const str
 static bool write_deck_texts(const struct recorder *recorder, hid_t place, struct messages *messages)
 {
     const struct deck *deck = recorder->scene->deck;
-    char files[KEPT_CHECKSUM];
     if (deck == NULL) return true;
-    kept_text_of(recorder->files, files);
     char *echo = deck_echo(deck, messages);
-    const bool good = echo != NULL && hdf_text(place, "files", files) &&
+    const bool good = echo != NULL && hdf_text(place, "files", recorder->files) &&
                       hdf_text(place, "deck", deck_source(deck)) && hdf_text(place, "deck_echo", echo) &&
                       hdf_text(place, "deck_name", deck_name(deck));
     free(echo);

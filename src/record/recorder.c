@@ -43,8 +43,10 @@ selas_status recorder_create(const struct scene *scene, struct model *model, con
 
 selas_status recorder_keep_files(struct recorder *recorder, struct messages *messages)
 {
-    const bool good = kept_files_checksum(recorder->scene, &recorder->files);
-    const bool same = ranks_same(recorder->scene->ranks, recorder->files);
+    free(recorder->files);
+    recorder->files = kept_files(recorder->scene);
+    const bool good = recorder->files != NULL;
+    const bool same = ranks_same(recorder->scene->ranks, good ? kept_sum(recorder->files) : 0);
     if (!good) return fail(messages, SELAS_NO_MEMORY, "no memory for the names of the deck's files");
     if (same) return SELAS_OK;
     return fail(messages, SELAS_FILE_ERROR, "ranks have read different files that the deck names");
@@ -315,6 +317,7 @@ void recorder_free(struct recorder **freed)
     array_free(recorder->time);
     array_free(recorder->exact);
     free(recorder->entry);
+    free(recorder->files);
     free(recorder);
     *freed = NULL;
 }

@@ -273,10 +273,11 @@ static void write_changed(FILE *out, const struct recorder *recorder, struct mes
     static const char text[] =
         "a file that the deck names has changed since the run began: errors are those against "
         "reference 'file' as it is now";
-    uint64_t files = 0;
-    if (strcmp(recorder->scene->reference.kind, "file") != 0 || recorder->scene->deck == NULL ||
-        !kept_files_checksum(recorder->scene, &files) || files == recorder->files)
-        return;
+    if (strcmp(recorder->scene->reference.kind, "file") != 0 || recorder->scene->deck == NULL) return;
+    char *now = kept_files(recorder->scene);
+    const bool same = now == NULL || strcmp(now, recorder->files) == 0;
+    free(now);
+    if (same) return;
     tell_line(out, "warning", text);
     warn(messages, "%s", text);
 }

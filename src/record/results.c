@@ -161,8 +161,10 @@ struct search {
 };
 
 /* Goes on unless the file is the wanted one. */
-static bool look_at(void *context, const char *path)
+static bool look_at(void *context, const char *word, const char *path, bool overridden)
 {
+    (void)word;
+    (void)overridden;
     struct search *search = context;
     struct stat about;
     search->found = stat(path, &about) == 0 && about.st_ino == search->wanted.st_ino &&
@@ -182,7 +184,7 @@ static selas_status claim_one(const struct scene *scene, const char *name, const
     char path[PATH_SIZE];
     struct search search = {.found = false};
     if (!path_of(folder, name, path, sizeof path) || stat(path, &search.wanted) != 0) return SELAS_OK;
-    const bool all = scene->deck == NULL || (look_at(&search, deck_source_path(scene->deck)) &&
+    const bool all = scene->deck == NULL || (look_at(&search, "", deck_source_path(scene->deck), false) &&
                                              deck_files(scene->deck, look_at, &search));
     if (!all && !search.found) return no_memory(messages);
     if (search.found)
