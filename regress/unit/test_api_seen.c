@@ -278,6 +278,35 @@ static void test_smooth_strains(void **state)
     selas_close(&simulation);
 }
 
+/* Of total-Lagrangian particles beside a face stresses err by more than velocities, and that is said once. */
+static void test_strains_of_particles(void **state)
+{
+    (void)state;
+    static const char *const said = "stresses and strains at receiver 'edge' err by up to about";
+    static const char body[] =
+        "&scene dimension = 2, end_time = 3 /\n"
+        "&material name = 'rock', density = 1, lambda = 1, mu = 1 /\n"
+        "&body material = 'rock', low = 0, 0, high = 4, 3, spacing = 0.125 /\n"
+        "&method name = 'sph', law = 'linear' /\n"
+        "&load face = 'y-', shape = 'square', centre = 2, 0, size = 1, direction = 0, 1\n"
+        "  amplitude = 1e-5, history = 'gaussian', width = 1, delay = 3.5 /\n"
+        "&boundary face = 'y+', kind = 'fixed' /\n"
+        "&receiver name = 'edge', position = 2, .05 /\n"
+        "&receiver name = 'inside', position = 2, 1 /\n";
+    double value[6];
+    selas_simulation *simulation = open_with(body, "");
+    assert_int_equal(selas_step(simulation, 3), SELAS_OK);
+    assert_int_equal(selas_receiver(simulation, "inside", SELAS_STRESS, value), SELAS_OK);
+    assert_int_equal(selas_receiver(simulation, "edge", SELAS_VELOCITY, value), SELAS_OK);
+    assert_null(strstr(selas_message(simulation), "stresses and strains at receiver"));
+    assert_int_equal(selas_receiver(simulation, "edge", SELAS_STRESS, value), SELAS_OK);
+    assert_int_equal(selas_receiver(simulation, "edge", SELAS_PRESSURE, value), SELAS_OK);
+    const char *first = strstr(selas_message(simulation), said);
+    assert_non_null(first);
+    assert_null(strstr(first + 1, said));
+    selas_close(&simulation);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -289,6 +318,7 @@ int main(void)
         cmocka_unit_test(test_sides_hold),
         cmocka_unit_test(test_means_beyond_mirrors),
         cmocka_unit_test(test_smooth_strains),
+        cmocka_unit_test(test_strains_of_particles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

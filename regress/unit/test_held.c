@@ -209,8 +209,16 @@ static void test_overflow(void **state)
     assert_int_equal(selas_set_load(simulation, "left", 0), SELAS_OK);
     assert_int_equal(selas_step(simulation, 1), SELAS_UNSTABLE);
     assert_non_null(strstr(selas_last_message(simulation), "went unstable"));
+    assert_non_null(strstr(selas_last_message(simulation), "likely: a given number too large"));
     assert_int_equal(selas_finish(simulation), SELAS_UNSTABLE);
     assert_int_equal(selas_steps(simulation), 3);
+    size_t count, width;
+    const double *values;
+    assert_int_equal(selas_receiver(simulation, "r", SELAS_VELOCITY, value), SELAS_UNSTABLE);
+    assert_non_null(strstr(selas_last_message(simulation), "went unstable"));
+    assert_int_equal(selas_field_values(simulation, SELAS_VELOCITY, &count, &width, &values), SELAS_UNSTABLE);
+    assert_int_equal(selas_energy(simulation, &value[0], &value[1]), SELAS_UNSTABLE);
+    assert_int_equal(selas_load_mean(simulation, "left", SELAS_VELOCITY, value), SELAS_UNSTABLE);
     selas_close(&simulation);
 }
 

@@ -284,29 +284,40 @@ static double error_beside_faces(const struct scene *scene, const double low[3],
     return most;
 }
 
+/* The same at a place of the deck, a spacing about it. */
+static double error_beside(const struct scene *scene, const double deck[3])
+{
+    double place[3], low[3], high[3];
+    body_from_deck(&scene->body, deck, place);
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = place[axis] - scene->body.spacing;
+        high[axis] = place[axis] + scene->body.spacing;
+    }
+    return error_beside_faces(scene, low, high);
+}
+
+static bool strains_in(unsigned fields)
+{
+    return (fields & (1U << SELAS_STRESS | 1U << SELAS_STRAIN | 1U << SELAS_PRESSURE | 1U << SELAS_ENERGY)) !=
+           0;
+}
+
 /* Are strains, or what follows from them, shown by profiles and snapshots? What they err by beside faces, in *more. */
 static bool shows_strains(const struct scene *scene, double *more)
 {
-    static const unsigned strains =
-        1U << SELAS_STRESS | 1U << SELAS_STRAIN | 1U << SELAS_PRESSURE | 1U << SELAS_ENERGY;
     bool shown = false;
     *more = 0;
     for (size_t k = 0; k < scene->profiles; k++) {
-        if ((scene->profile[k].fields & strains) == 0) continue;
+        if (!strains_in(scene->profile[k].fields)) continue;
         shown = true;
         for (size_t i = 0; i < scene->profile[k].points; i++) {
-            double deck[3] = {0.0}, place[3], low[3], high[3];
+            double deck[3] = {0.0};
             profile_position(&scene->profile[k], i, deck);
-            body_from_deck(&scene->body, deck, place);
-            for (int axis = 0; axis < 3; axis++) {
-                low[axis] = place[axis] - scene->body.spacing;
-                high[axis] = place[axis] + scene->body.spacing;
-            }
-            *more = fmax(*more, error_beside_faces(scene, low, high));
+            *more = fmax(*more, error_beside(scene, deck));
         }
     }
     for (size_t k = 0; k < scene->snapshots; k++) {
-        if ((scene->snapshot[k].fields & strains) == 0) continue;
+        if (!strains_in(scene->snapshot[k].fields)) continue;
         shown = true;
         double low[3] = {0.0}, high[3] = {0.0};
         snapshot_box(scene, &scene->snapshot[k], low, high);
@@ -315,24 +326,39 @@ static bool shows_strains(const struct scene *scene, double *more)
     return shown;
 }
 
-/* Strains of particles, where velocities err so much by the state at t = 0 and by what is sent. Those that loads give
- * a body that nothing holds are largely of the whole body, of which strains know nothing
- * (doc/theory/sph-total-lagrangian.md, section 6). */
-static void look_at_strains(struct adviser *adviser, const struct model *model, double first, double sent)
+/* What strains of particles err by, where velocities err so much by the state at t = 0 and by what is sent, and `more`
+ * beside faces; 0: no more than is told of velocities. Those that loads give a body that nothing holds are largely of
+ * the whole body, of which strains know nothing (doc/theory/sph-total-lagrangian.md, section 6). */
+static double error_of_strains(const struct scene *scene, const struct model *model, double first,
+                               double sent, double more)
 {
     static const double flying = 5;
-    const struct scene *scene = adviser->scene;
-    double more;
     bool free = true;
-    if (strcmp(model->method->variant, "total-lagrangian") != 0 || !shows_strains(scene, &more)) return;
+    if (strcmp(model->method->variant, "total-lagrangian") != 0) return 0;
     for (int face = 0; face < 2 * scene->dimension; face++)
         free = free && boundary_is_free(&scene->boundary[face]);
     const double error = fmax(first, sent * (free ? flying : 1)) + more;
-    if (error > WAVES_SEEN && error > fmax(first, sent))
+    return error > WAVES_SEEN && error > fmax(first, sent) ? fmin(1, error) : 0;
+}
+
+double advice_strain_error(const struct model *model, const double position[3], selas_field field)
+{
+    const struct scene *scene = model->scene;
+    if (!strains_in(1U << field) || scene_has_exact(scene) || !(scene->body.spacing > 0)) return 0;
+    return error_of_strains(scene, model, error_of_first(scene, &model->waves),
+                            error_of_sent(scene, &model->waves), error_beside(scene, position));
+}
+
+static void look_at_strains(struct adviser *adviser, const struct model *model, double first, double sent)
+{
+    double more;
+    if (!shows_strains(adviser->scene, &more)) return;
+    const double error = error_of_strains(adviser->scene, model, first, sent, more);
+    if (error > 0)
         advise(adviser,
                "stresses and strains that profiles and snapshots show err by up to about %.2g%s; variant = "
                "'consistent'%s would be right",
-               fmin(1, error), more > 0 ? " within a spacing of faces" : "",
+               error, more > 0 ? " within a spacing of faces" : "",
                more > 0 ? ", or places farther inside with finer points," : ", or finer points,");
 }
 

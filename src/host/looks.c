@@ -53,8 +53,22 @@ void host_looks_at(selas_simulation *simulation, const double position[3], const
     look(simulation, &place, what);
 }
 
+static void tell_strain_error(selas_simulation *simulation, const struct receiver *receiver,
+                              selas_field field)
+{
+    if (simulation->erring) return;
+    const double error = advice_strain_error(simulation->stepper->model, receiver->position, field);
+    simulation->erring = error > 0;
+    if (simulation->erring)
+        warn(&simulation->messages,
+             "stresses and strains at receiver '%s' err by up to about %.2g; variant = 'consistent', finer "
+             "points, or places farther from faces, would be right",
+             receiver->name, error);
+}
+
 void host_reads(selas_simulation *simulation, const struct receiver *receiver, selas_field field)
 {
+    tell_strain_error(simulation, receiver, field);
     if (simulation->strained || !advice_smooth_strain(simulation->scene, receiver->position, field)) return;
     simulation->strained = true;
     warn(&simulation->messages,

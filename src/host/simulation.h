@@ -53,6 +53,7 @@ struct selas_simulation {
     bool advised;        /* the host, or the user by the program, has been told the advice on the scene */
     bool warned;         /* that it looks where the deck does not */
     bool strained;       /* that a receiver's stress is that of a smooth strain */
+    bool erring;         /* that stresses of particles err more than velocities */
     bool busy;           /* a callback of the host is running */
     bool dirty;          /* loads at the time reached have changed; the acceleration has not yet */
     selas_status broken; /* why no scene could be opened or built from what was set so far */
@@ -193,7 +194,7 @@ void host_free(selas_simulation *simulation);
 void host_advise(selas_simulation *simulation);
 void host_looks_at_all(selas_simulation *simulation);
 void host_looks_at(selas_simulation *simulation, const double position[3], const char *what);
-/* Warns, once, that strains of receivers are smooth where the rock jumps. */
+/* Warns, once, that strains of receivers are smooth where the rock jumps; and of what those of particles err by. */
 void host_reads(selas_simulation *simulation, const struct receiver *receiver, selas_field field);
 
 #endif

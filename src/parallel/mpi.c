@@ -73,14 +73,38 @@ void ranks_end(struct ranks **ended)
     MPI_Finalize();
 }
 
+/* What is wrong with a host's communicator, or NULL and its size. Calls with one that is none ask the handler of
+ * MPI_COMM_WORLD what to do. */
+static const char *wrong_with(MPI_Comm comm, int *count)
+{
+    MPI_Errhandler handler;
+    int between = 0;
+    if (comm == MPI_COMM_NULL)
+        return "the communicator is MPI_COMM_NULL: this rank is not in it, and takes no part in the "
+               "simulation";
+    MPI_Comm_get_errhandler(MPI_COMM_WORLD, &handler);
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+    const bool sound =
+        MPI_Comm_test_inter(comm, &between) == MPI_SUCCESS && MPI_Comm_size(comm, count) == MPI_SUCCESS;
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, handler);
+    MPI_Errhandler_free(&handler);
+    if (!sound) return "the communicator is none, or is freed: one that lives would be right";
+    return between ? "the communicator joins two groups: an intracommunicator (MPI_Intercomm_merge) would be "
+                     "right"
+                   : NULL;
+}
+
 selas_status ranks_join(int communicator, struct ranks **joined, struct messages *messages)
 {
-    int begun = 0, count = 1;
+    int begun = 0, ended = 0, count = 1;
     *joined = NULL;
     MPI_Initialized(&begun);
-    if (!begun) return fail(messages, SELAS_BAD_ARGUMENT, "a communicator needs MPI_Init before");
+    MPI_Finalized(&ended);
+    if (!begun || ended)
+        return fail(messages, SELAS_BAD_ARGUMENT, "a communicator lives between MPI_Init and MPI_Finalize");
     const MPI_Comm comm = MPI_Comm_f2c(communicator);
-    MPI_Comm_size(comm, &count);
+    const char *wrong = wrong_with(comm, &count);
+    if (wrong != NULL) return fail(messages, SELAS_BAD_ARGUMENT, "%s", wrong);
     if (count == 1) return SELAS_OK;
     struct ranks *ranks = array_new(1, sizeof *ranks);
     if (ranks == NULL) return fail(messages, SELAS_NO_MEMORY, "no memory for the ranks");

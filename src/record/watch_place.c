@@ -166,14 +166,32 @@ static bool is_held(const struct deck_group *method)
     return method != NULL && deck_values(method, "hourglass") > 0 && deck_real(method, "hourglass", 0) > 0;
 }
 
+/* Is what overflows given? Nothing grows so in so few steps. */
+static bool came_large(const struct recorder *recorder, const struct state *state)
+{
+    enum { FEW = 3 };
+    static const double large = 1e100;
+    const struct drive drive = driver_last(&recorder->stepper->driver, state->time);
+    double most = 0.0;
+    for (size_t k = 0; k < recorder->scene->loads; k++)
+        most = fmax(most, fabs(recorder->scene->load[k].amplitude * drive.load[k]));
+    return state->step <= FEW || most > large;
+}
+
 /* The first of what is known to make runs grow that this run has. */
-static void name_cause(const struct recorder *recorder, size_t size, char *text)
+static void name_cause(const struct recorder *recorder, const struct state *state, size_t size, char *text)
 {
     static const double nearly_incompressible = 0.49;
     const struct stepper *stepper = recorder->stepper;
     const struct scene *scene = recorder->scene;
     const struct material *stiff = least_compressible(scene);
-    if (stepper->limit <= 0.0 || stepper->dt > 0.999 * stepper->limit)
+    if (stepper->limit > 0.0 && stepper->dt > 0.999 * stepper->limit)
+        say_step(stepper, size, text);
+    else if (came_large(recorder, state))
+        snprintf(text, size,
+                 "a given number too large for double precision; look at loads, tables, the state at t = 0, "
+                 "moduli and densities");
+    else if (stepper->limit <= 0.0)
         say_step(stepper, size, text);
     else if (stiff->poisson > nearly_incompressible)
         snprintf(text, size, "material '%s' with nu = %.6g, near 0.5; try a smaller nu or time step",
@@ -210,7 +228,7 @@ selas_status watch_tell(const struct recorder *recorder, const struct state *sta
 {
     char where[300], why[400];
     name_place(recorder, state, sizeof where, where);
-    name_cause(recorder, sizeof why, why);
+    name_cause(recorder, state, sizeof why, why);
     return fail(messages, SELAS_UNSTABLE, "the run went unstable at t = %.6g (step %lu): %s%s; likely: %s",
                 state->time, state->step, what, where, why);
 }

@@ -4,7 +4,7 @@ sed 's/use mpi_f08/use mpi/; s/%mpi_val//' regress/hosts/coupled_ranks.f90 >"$wo
 # shellcheck disable=SC2086
 "$mpifc" -std=f2018 -Wall -Wno-compare-reals -I"$build" -o "$work/coupled_f08" regress/hosts/coupled_ranks.f90 "$build/libselas_fortran.a" $linked &&
     "$mpifc" -I"$build" -o "$work/coupled_mpi" "$work/coupled_mpi.f90" "$build/libselas_fortran.a" $linked &&
-    make_host shared_column && make_host shared_checkpoint
+    make_host shared_column && make_host shared_checkpoint && make_host wrong_communicators
 verdict $? "hosts on ranks compile (mpi_f08, mpi, C)"
 make -s -o mpi -o all BUILD="$build" PREFIX=/usr DESTDIR="$work/root" install-mpi >"$work/log" 2>&1 &&
     "$mpicc" -std=c17 -I"$work/root/usr/include" -o "$work/installed" regress/hosts/shared_column.c -L"$work/root/usr/lib" -lselas-mpi -Wl,-rpath,"$work/root/usr/lib" ${LDFLAGS:-} 2>>"$work/log"
@@ -52,3 +52,5 @@ spoils() { # spoils VALUE PATTERN WHAT: a load whose value is another on the las
 }
 spoils nan "the value of load '1' is not a finite number" "a host that sets a load to no number on one rank"
 spoils 0.1 "ranks give load '1' values from 0 to 0.1" "a host whose ranks set a load to different values"
+timeout 60 $mpirun -n 3 "$work/wrong_communicators" $tall >"$work/log" 2>&1 && [ "$(grep -c '^error: ' "$work/log")" = 3 ]
+verdict $? "communicators that cannot share: each is refused in a line, and another one taken" || sed 's/^/#   /' "$work/log" | head -5
