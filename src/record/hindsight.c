@@ -75,6 +75,7 @@ static void look_at_rotation(struct recorder *recorder, const double *y)
 {
     const struct model *model = recorder->model;
     const size_t d = (size_t)recorder->scene->dimension;
+    double turned = 0.0, strained = 0.0;
     for (size_t k = 0; k < recorder->places; k++) {
         const struct probe *probe = &recorder->place[k];
         double slope[3][3] = {{0}}, turn = 0.0, strain = 0.0;
@@ -92,9 +93,13 @@ static void look_at_rotation(struct recorder *recorder, const double *y)
                 turn += a < b ? pow(0.5 * (slope[a][b] - slope[b][a]), 2) : 0.0;
                 strain += pow(0.5 * (slope[a][b] + slope[b][a]) + green, 2);
             }
-        recorder->watch.turn = fmax(recorder->watch.turn, sqrt(turn));
-        recorder->watch.strain = fmax(recorder->watch.strain, sqrt(strain));
+        turned = fmax(turned, sqrt(turn));
+        strained = fmax(strained, sqrt(strain));
     }
+    recorder->watch.turn = fmax(recorder->watch.turn, turned);
+    recorder->watch.strain = fmax(recorder->watch.strain, strained);
+    if (turned > few_degrees && turned > above_strain * strained)
+        recorder->turned = fmax(recorder->turned, turned);
 }
 
 /* Whenever clearly more has been given than at the last look: how much of it is in the body? */

@@ -101,6 +101,8 @@ struct recorder {
     double before_time;  /* last_time then */
     size_t places;       /* at which rotations are looked at */
     struct probe *place;
+    double
+        turned; /* the largest rotation that was seen beside small strains, too large for level images; 0: none */
     bool looked_back; /* hindsight has told what it has to tell */
     unsigned long last_step;
     double last_time;

@@ -196,6 +196,12 @@ static void name_cause(const struct recorder *recorder, const struct state *stat
     else if (stiff->poisson > nearly_incompressible)
         snprintf(text, size, "material '%s' with nu = %.6g, near 0.5; try a smaller nu or time step",
                  stiff->name, stiff->poisson);
+    else if (recorder->model->level_images && recorder->turned > 0.0)
+        snprintf(
+            text, size,
+            "parts of the body turned by %.3g degrees, and variant 'updated-lagrangian' presses faces by "
+            "images that do not turn; variant = 'total-lagrangian' would be right",
+            recorder->turned * 180.0 / acos(-1.0));
     else if (strcmp(recorder->model->method->variant, "updated-lagrangian") == 0)
         snprintf(text, size,
                  "displacements that alternate from particle to particle, which gradients do not see, or "
