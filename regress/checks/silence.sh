@@ -425,6 +425,22 @@ untold "a cantilever of moved points bends" -q bends.nml
 awk '!/^#/ && $3 > most { most = $3 } END { exit !(most > .0049 && most < .0058) }' out/r.dat
 verdict "as without artificial stress" $?
 
+# who means the top of a hill by z = 0 stands in it; a time between snapshots is no number of steps
+cat >hill.nml <<'END'
+&scene dimension = 2, end_time = 2 /
+&material name = 'rock', density = 1.0, lambda = 1.0, mu = 1.0 /
+&body material = 'rock', shape = 'half-space', spacing = 0.125 /
+&topography shape = 'gaussian', height = 0.5, centre = 0, width = 1 /
+&load kind = 'moment-tensor', centre = 0, 2, moment = 1, 1, 0, 0, 0, 0, history = 'gaussian', width = .4, delay = 1.6 /
+&receiver name = 'r', position = 0, depth = 0 /
+&snapshot every = 1, fields = 'velocity' /
+&output plots = F, directory = 'out' /
+END
+untold "a receiver on a hill" check hill.nml
+told "a receiver in a hill at the level of its foot" "receiver.*is 0.5 below the surface, at the level of face" check hill.nml receiver%depth= receiver%position=0,0
+untold "one at its foot" check hill.nml receiver%depth= receiver%position=4,0
+told "a time between snapshots longer than the run" "shows t = 0 alone" check hill.nml snapshot%every=10
+
 # free to turn under four tractions along its faces; at the right speed, as nothing brakes it
 cat >turns.nml <<'END'
 &scene dimension = 2, end_time = 7 /

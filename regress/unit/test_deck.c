@@ -417,6 +417,10 @@ static void suggestions(void **state)
                         "; did you mean 'quiet'?"); /* 1 against 2 */
     assert_string_equal(suggest_word(NULL, &group, "forec", text), "; did you mean 'force'?");
     assert_string_equal(suggest_word(NULL, &group, "spacing", text), "");
+    assert_string_equal(suggest_word(deck_words(),
+                                     &deck_words()->group[words_find_group(deck_words(), "material", 8)],
+                                     "Vp", text),
+                        "; did you mean 'p_speed'?"); /* what others call it */
     assert_string_equal(suggest_group(&table, "gruop", "&", text), "; did you mean '&group'?");
     assert_string_equal(suggest_group(&table, "body", "&", text), "");
     assert_string_equal(suggest_choice(&words[2], "pul", text), "; did you mean 'pull'?");

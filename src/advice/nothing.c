@@ -216,6 +216,12 @@ static void look_at_hill(struct adviser *adviser)
 static void look_at_rows(struct adviser *adviser)
 {
     const struct scene *scene = adviser->scene;
+    for (size_t k = 0; k < scene->snapshots; k++)
+        if (scene->snapshot[k].every > scene->end_time)
+            advise(
+                adviser,
+                "snapshot%%every = %g, a time, is longer than the run, %g: &snapshot %zu shows t = 0 alone",
+                scene->snapshot[k].every, scene->end_time, k + 1);
     if (scene->receivers == 0 || scene->output.history_step <= scene->end_time) return;
     advise(adviser,
            "output%%history_step = %g is longer than the run, %g: histories have the row t = 0 alone",

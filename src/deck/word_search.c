@@ -113,6 +113,22 @@ size_t words_distance(const char *one, const char *other)
     return cost[rows % 3][columns];
 }
 
+/* What groups, words and choices are called elsewhere, each with a blank on either side. */
+static const char usual_names[] =
+    " vp=p_speed vs=s_speed alpha=p_speed beta=s_speed rho=density e=young youngs_modulus=young nu=poisson "
+    "poissons_ratio=poisson g=shear shear_modulus=shear k=bulk bulk_modulus=bulk dx=spacing h=spacing "
+    "dt=time_step dt=history_step sampling=history_step cfl=courant position=centre force=amplitude "
+    "m0=amplitude sigma=width t0=delay f0=frequency fc=frequency freq=frequency peak_frequency=frequency "
+    "dir=directory folder=directory path=directory interval=every absorbing=transmitting station=receiver "
+    "stations=receiver source=load time=stepping grid=body domain=body surface=topography ";
+
+static bool is_usual(const char *word, const char *name)
+{
+    char pair[160];
+    return snprintf(pair, sizeof pair, " %s=%s ", word, name) < (int)sizeof pair &&
+           strcasestr(usual_names, pair) != NULL;
+}
+
 struct nearest {
     char name[64];
     size_t distance;
@@ -121,7 +137,7 @@ struct nearest {
 /* Keeps the nearer of two spellings; what differs in half of its letters is not near. */
 static void keep_nearest(const char *word, const char *name, struct nearest *nearest)
 {
-    const size_t distance = words_distance(word, name);
+    const size_t distance = is_usual(word, name) ? 0 : words_distance(word, name);
     if (distance >= nearest->distance || 2 * distance >= strlen(name) || 2 * distance > strlen(word) + 1)
         return;
     nearest->distance = distance;
@@ -150,6 +166,10 @@ const char *suggest_word(const struct word_table *table, const struct word_group
 {
     struct nearest nearest = {"", SIZE_MAX};
     size_t used = 0;
+    for (int expert = 0; expert < 2; expert++)
+        for (size_t i = 0; i < group->words; i++)
+            if ((group->word[i].need == EXPERT) == expert) keep_nearest(word, group->word[i].name, &nearest);
+    if (nearest.distance == 0) return suggestion(&nearest, "", text);
     for (size_t i = 0, told = 0; table != NULL && i < table->groups && told < 3; i++) {
         const struct word_group *other = &table->group[i];
         if (words_find(other, word, strlen(word)) == other->words) continue;
@@ -158,9 +178,6 @@ const char *suggest_word(const struct word_table *table, const struct word_group
         used = more > 0 && used + (size_t)more < SUGGESTION_SIZE ? used + (size_t)more : SUGGESTION_SIZE - 1;
     }
     if (used > 0) return text;
-    for (int expert = 0; expert < 2; expert++)
-        for (size_t i = 0; i < group->words; i++)
-            if ((group->word[i].need == EXPERT) == expert) keep_nearest(word, group->word[i].name, &nearest);
     return suggestion(&nearest, "", text);
 }
 

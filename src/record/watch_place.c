@@ -211,7 +211,7 @@ static void name_cause(const struct recorder *recorder, const struct state *stat
     else if (stepper->spectrum.viscous > 0.0 || recorder->model->spatial->linearise != NULL)
         snprintf(text, size,
                  "the body moves so fast or so far that the stability limit %.3g, measured at rest, does not "
-                 "hold (the step is %.3g)%s; try a smaller stepping%%safety",
+                 "hold (the step is %.3g)%s; try smaller amplitudes, or a smaller stepping%%safety",
                  stepper->limit, stepper->dt,
                  stepper->spectrum.viscous > 0.0 ? ", or the artificial viscosity takes its part of it" : "");
     else if (!recorder->model->self_adjoint)

@@ -255,8 +255,9 @@ void height_map_cover(const struct height_map *map, struct builder *builder, con
         height_map_extent(map, axis, &low, &high);
         if (low > body->low[axis] + small || high < body->high[axis] - small)
             complain(builder, group, "file",
-                     "the heights reach from %g to %g along %c, the body from %g to %g", low, high,
-                     "xy"[axis], body -> low[axis], body -> high[axis]);
+                     "the heights reach from %g to %g along %c, the body from %g to %g; a file that reaches "
+                     "as far, or body%%low and high within it, would be right",
+                     low, high, "xy"[axis], body -> low[axis], body -> high[axis]);
         double most = 0;
         for (size_t i = 0; i + 1 < map->along[axis].values; i++)
             most = fmax(most, map->along[axis].place[i + 1] - map->along[axis].place[i]);

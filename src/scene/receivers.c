@@ -1,6 +1,7 @@
 /* What the user wants to see: receivers, profiles, snapshots. */
 #include "base/memory.h"
 #include "scene/build.h"
+#include "scene/topography.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
@@ -91,6 +92,25 @@ static void check_profile(struct builder *builder, const struct deck_group *grou
             complain(builder, group, "name", "there is a profile '%s' already (&profile %zu)", name, i + 1);
 }
 
+/* Who means the ground under a hill by the level of face z- stands in the hill. */
+static void look_at_hill(struct builder *builder, const struct deck_group *group, const char *what,
+                         const double position[3])
+{
+    const struct body *body = &builder->scene->body;
+    const struct topography *hill = body->topography;
+    const int down = builder->scene->dimension - 1;
+    char text[VECTOR_TEXT_SIZE];
+    double above[3] = {position[0], position[1], position[2]}, surface[3];
+    if (hill == NULL || fabs(position[down] - hill->plane) > body_tolerance(body)) return;
+    above[down] = hill->plane + hill->top - body->spacing;
+    if (body_holds(body, down + 1, above, surface)) return;
+    if (position[down] - surface[down] > 0.5 * body->spacing)
+        deck_warning(
+            builder->deck, group, "position", builder->messages,
+            "%s is %.4g below the surface, at the level of face '%c-'; position = %s, depth = 0 is on it",
+            what, position[down] - surface[down], "xyz"[down], vector_text(text, position, down));
+}
+
 static void read_place(struct builder *builder, const struct deck_group *group, const char *name,
                        const char *what, double position[3])
 {
@@ -102,6 +122,7 @@ static void read_place(struct builder *builder, const struct deck_group *group, 
     const bool placed = has_depth ? need_place(builder, group, name, what, position)
                                   : need_vector(builder, group, name, what, position);
     if (!placed || !builder->body_known) return;
+    if (has_depth) look_at_hill(builder, group, what, position);
     if (body_holds(body, dimension, position, nearest)) return;
     const int down = dimension - 1;
     double off = 0, aside = 0; /* the box is missed by this much, beside the vertical axis by that */
