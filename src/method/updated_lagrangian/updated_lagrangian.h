@@ -31,10 +31,10 @@ struct updated_options {
     double hourglass;         /* xi of hourglass.c; 0: off, as published */
 };
 
-/* A ghost mirrors a particle at one to three faces, in this order. */
+/* A ghost mirrors a particle at one to six faces, in this order: of a thin body at two across an axis. */
 struct updated_ghost {
     uint32_t source;
-    unsigned char count, face[3];
+    unsigned char count, face[6];
     uint64_t loads; /* bit k: load k presses on its face at this place */
 };
 
