@@ -179,9 +179,8 @@ static void unknown_word(struct scanner *scanner, const struct word_group *kind,
         return;
     }
     scan_quote(scanner, at, length, quoted);
-    const bool near = suggest_word(scanner->table, kind, quoted, suggestion)[0] != '\0';
-    scan_error(scanner, at, "unknown name '%s' in &%s%s%s%s", quoted, kind->name, suggestion,
-               near ? "" : "; its words: selas words ", near ? "" : kind->name);
+    scan_error(scanner, at, "unknown name '%s' in &%s%s", quoted, kind->name,
+               suggest_word(scanner->table, kind, quoted, suggestion));
 }
 
 bool scan_assignment(struct scanner *scanner, struct deck_group *group)

@@ -166,10 +166,6 @@ const char *suggest_word(const struct word_table *table, const struct word_group
 {
     struct nearest nearest = {"", SIZE_MAX};
     size_t used = 0;
-    for (int expert = 0; expert < 2; expert++)
-        for (size_t i = 0; i < group->words; i++)
-            if ((group->word[i].need == EXPERT) == expert) keep_nearest(word, group->word[i].name, &nearest);
-    if (nearest.distance == 0) return suggestion(&nearest, "", text);
     for (size_t i = 0, told = 0; table != NULL && i < table->groups && told < 3; i++) {
         const struct word_group *other = &table->group[i];
         if (words_find(other, word, strlen(word)) == other->words) continue;
@@ -178,6 +174,9 @@ const char *suggest_word(const struct word_table *table, const struct word_group
         used = more > 0 && used + (size_t)more < SUGGESTION_SIZE ? used + (size_t)more : SUGGESTION_SIZE - 1;
     }
     if (used > 0) return text;
+    for (int expert = 0; expert < 2; expert++)
+        for (size_t i = 0; i < group->words; i++)
+            if ((group->word[i].need == EXPERT) == expert) keep_nearest(word, group->word[i].name, &nearest);
     return suggestion(&nearest, "", text);
 }
 

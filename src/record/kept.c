@@ -108,7 +108,7 @@ uint64_t kept_sum(const char *files)
 {
     struct crc64_table table;
     crc64_prepare(&table);
-    return crc64_add(&table, 0, files, strlen(files));
+    return crc64_add(&table, 0, files, files != NULL ? strlen(files) : 0);
 }
 
 selas_status kept_deck_of_checkpoint(const char *path, struct ranks *ranks, struct kept_deck *kept,

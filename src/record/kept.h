@@ -26,7 +26,7 @@ void kept_deck_free(struct kept_deck *kept);
 char *kept_files(const struct scene *scene);
 /* Does one of them differ from those lines, beside files that an override names? */
 bool kept_files_changed(const struct scene *scene, const char *files);
-/* The lines in one number. */
+/* The lines, or NULL, in one number. */
 uint64_t kept_sum(const char *files);
 
 #endif

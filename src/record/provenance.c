@@ -86,7 +86,8 @@ static bool write_deck_texts(const struct recorder *recorder, hid_t place, struc
     const struct deck *deck = recorder->scene->deck;
     if (deck == NULL) return true;
     char *echo = deck_echo(deck, messages);
-    const bool good = echo != NULL && hdf_text(place, "files", recorder->files) &&
+    const bool good = echo != NULL &&
+                      hdf_text(place, "files", recorder->files != NULL ? recorder->files : "") &&
                       hdf_text(place, "deck", deck_source(deck)) && hdf_text(place, "deck_echo", echo) &&
                       hdf_text(place, "deck_name", deck_name(deck));
     free(echo);

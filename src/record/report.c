@@ -275,7 +275,7 @@ static void write_changed(FILE *out, const struct recorder *recorder, struct mes
         "reference 'file' as it is now";
     if (strcmp(recorder->scene->reference.kind, "file") != 0 || recorder->scene->deck == NULL) return;
     char *now = kept_files(recorder->scene);
-    const bool same = now == NULL || strcmp(now, recorder->files) == 0;
+    const bool same = now == NULL || recorder->files == NULL || strcmp(now, recorder->files) == 0;
     free(now);
     if (same) return;
     tell_line(out, "warning", text);

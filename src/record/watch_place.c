@@ -185,13 +185,12 @@ static void name_cause(const struct recorder *recorder, const struct state *stat
     const struct stepper *stepper = recorder->stepper;
     const struct scene *scene = recorder->scene;
     const struct material *stiff = least_compressible(scene);
-    if (stepper->limit > 0.0 && stepper->dt > 0.999 * stepper->limit)
-        say_step(stepper, size, text);
-    else if (came_large(recorder, state))
+    const bool beyond = stepper->limit > 0.0 && stepper->dt > 0.999 * stepper->limit;
+    if (!beyond && came_large(recorder, state))
         snprintf(text, size,
                  "a given number too large for double precision; look at loads, tables, the state at t = 0, "
                  "moduli and densities");
-    else if (stepper->limit <= 0.0)
+    else if (beyond || stepper->limit <= 0.0)
         say_step(stepper, size, text);
     else if (stiff->poisson > nearly_incompressible)
         snprintf(text, size, "material '%s' with nu = %.6g, near 0.5; try a smaller nu or time step",
